@@ -1,0 +1,1 @@
+"""Who simulates: one file per engine, the runner and the MCAP log."""

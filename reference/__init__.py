@@ -1,0 +1,1 @@
+"""What is true: closed forms as pure functions, numbers in, arrays out."""

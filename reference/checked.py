@@ -1,0 +1,87 @@
+"""Arguments checked on entry: each function returns a float array or raises ``InputError``."""
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import InputError
+
+Array = npt.NDArray[np.float64]
+
+#: Distance from unit length up to which a quaternion counts as one [1]; it is then normalised.
+UNIT_TOLERANCE = 1e-9
+
+
+def finite(name: str, value: npt.ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
+    """``value`` as a finite float64 array, of ``shape`` if one is given (-1 matches any length)."""
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as cause:
+        raise InputError(f"{name}: got {value!r}, expected numbers") from cause
+    if shape is not None and not _fits(array.shape, shape):
+        expected = str(shape).replace("-1", "any")
+        raise InputError(f"{name}: got an array of shape {array.shape}, expected {expected}")
+    if not np.all(np.isfinite(array)):
+        raise InputError(f"{name}: got {array.tolist()}, expected finite numbers")
+    return array
+
+
+def number(name: str, value: npt.ArrayLike) -> float:
+    """``value`` as one finite float."""
+    return float(finite(name, value, ()))
+
+
+def positive(name: str, value: npt.ArrayLike) -> float:
+    """``value`` as one finite float above zero."""
+    result = number(name, value)
+    if result <= 0:
+        raise InputError(f"{name}: got {result}, expected a number above 0")
+    return result
+
+
+def not_negative(name: str, value: npt.ArrayLike) -> float:
+    """``value`` as one finite float, zero or above."""
+    result = number(name, value)
+    if result < 0:
+        raise InputError(f"{name}: got {result}, expected 0 or above")
+    return result
+
+
+def within(name: str, value: npt.ArrayLike, low: float, high: float) -> float:
+    """``value`` as one finite float in the closed interval [low, high]."""
+    result = number(name, value)
+    if not low <= result <= high:
+        raise InputError(f"{name}: got {result}, expected a number from {low} to {high}")
+    return result
+
+
+def unit_quaternion(name: str, value: npt.ArrayLike) -> Array:
+    """``value`` (4,), scalar last, normalised; raises if its norm is off by more than 1e-9."""
+    q = finite(name, value, (4,))
+    norm = float(np.linalg.norm(q))
+    if abs(norm - 1) > UNIT_TOLERANCE:
+        raise InputError(
+            f"{name}: got norm {norm}, expected a unit quaternion (x, y, z, w) to {UNIT_TOLERANCE:g}"
+        )
+    return q / norm
+
+
+def principal_moments(name: str, value: npt.ArrayLike) -> Array:
+    """``value`` (3,) [kg m²]: each positive, none above the sum of the other two.
+
+    A plate (I3 = I1 + I2) is allowed; four units in the last place are granted to its rounding.
+    """
+    moments = finite(name, value, (3,))
+    if np.any(moments <= 0):
+        raise InputError(f"{name}: got {moments.tolist()}, expected three moments above 0")
+    largest = float(moments.max())
+    others = float(np.sort(moments)[:2].sum())
+    if largest > others * (1 + 4 * np.finfo(np.float64).eps):
+        raise InputError(
+            f"{name}: got {moments.tolist()}, whose largest exceeds the sum of the other two, {others}; "
+            "no body has such moments"
+        )
+    return moments
+
+
+def _fits(got: tuple[int, ...], expected: tuple[int, ...]) -> bool:
+    return len(got) == len(expected) and all(e in (-1, g) for g, e in zip(got, expected, strict=True))

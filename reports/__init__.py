@@ -1,0 +1,1 @@
+"""Who judges: the comparator, work-precision, and the rendering of reports."""

@@ -1,0 +1,1 @@
+"""What is simulated: scenes, trajectories, and the checks each scene must pass."""
