@@ -1,0 +1,109 @@
+"""What an engine must offer: build a scene, step, say where it is, and say how it was set up."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+from ..reference.checked import Array
+from ..reference.errors import PoinsotError
+from ..scenarios.scene import Scene
+
+
+class EngineError(PoinsotError):
+    """The engine broke down while it ran: reset itself, warned, or left the finite numbers."""
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """An integrator of an engine.
+
+    ``order`` is the declared order of accuracy in attitude; ``twin`` the common name of schemes
+    that are the same algorithm, in whatever engine; ``lacks`` the features of its engine that this
+    scheme does not support, each with the reason.
+    """
+
+    name: str
+    order: int
+    twin: str
+    lacks: Mapping[str, str]
+
+
+class State(NamedTuple):
+    """Where ``b`` bodies and ``j`` scalar joints are now; shapes and frames as in ``Trajectory``.
+
+    ``position`` (b, 3), ``quaternion`` (b, 4) scalar last, ``velocity`` (b, 3), ``omega`` (b, 3) in
+    body axes, ``joint_position`` (j,), ``joint_velocity`` (j,); all of them copies that later
+    steps do not change.
+    """
+
+    position: Array
+    quaternion: Array
+    velocity: Array
+    omega: Array
+    joint_position: Array
+    joint_velocity: Array
+
+
+class Setup(NamedTuple):
+    """What the engine says of its own model after building it.
+
+    ``values`` maps a setting to its value. Of every body: ``body/NAME/mass`` [kg],
+    ``body/NAME/center_of_mass`` (3,) [m] and ``body/NAME/inertia`` (3, 3) [kg m²] about it, both in
+    the scene's body axes; of every hinge and slide ``joint/NAME/stiffness`` and
+    ``joint/NAME/damping``; of the world ``gravity`` (3,) [m/s²], ``dt`` [s], ``velocity_limit``
+    (inf: none), ``linear_damping`` and ``angular_damping`` [1/s].
+    ``probed`` names the settings that cannot be read back and were inferred from a probe run.
+    """
+
+    values: Mapping[str, Any]
+    probed: tuple[str, ...] = ()
+
+
+class Engine(Protocol):
+    """A physics engine, behind the few calls that Poinsot needs; no loop, clock or log of its own.
+
+    Made without arguments; ``build`` may be called again and then starts afresh.
+    """
+
+    name: ClassVar[str]
+    schemes: ClassVar[tuple[Scheme, ...]]
+    features: ClassVar[frozenset[str]]
+    #: The engine's own settings that a reader should know, in words; one line each.
+    settings: ClassVar[Mapping[str, str]]
+
+    @staticmethod
+    def version() -> str:
+        """Version of the installed engine."""
+        ...
+
+    def build(self, scene: Scene, scheme: Scheme, dt: float) -> None:
+        """Build ``scene`` at its initial state, to be stepped by ``scheme`` at ``dt`` [s]."""
+        ...
+
+    def step(self, n: int) -> None:
+        """Advance by ``n`` steps, in the engine's own loop where it has one."""
+        ...
+
+    def state(self) -> State:
+        """Where everything is now. Raises ``EngineError`` if the engine reset itself or warned."""
+        ...
+
+    def readback(self) -> Setup:
+        """How the engine is set up, by its own account."""
+        ...
+
+    def acceleration(self, q: Array, v: Array) -> Array:
+        """Generalised accelerations (nv,) at coordinates ``q`` and velocities ``v``.
+
+        Laid out as ``Scene.q0`` and ``v0``; the result is the time derivative of ``v``, each
+        component in its axes (world for the velocity of a free joint, body for ω).
+        """
+        ...
+
+    def model_text(self) -> tuple[str, str]:
+        """File name and text of the exact model that the engine was given, for the log."""
+        ...
+
+    def close(self) -> None:
+        """Let go of what ``build`` made."""
+        ...

@@ -1,0 +1,61 @@
+"""The outcome of one check on one cell."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Status(Enum):
+    """How a check ended; the description is a sentence for people."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    KNOWN = "known"
+    FIXED = "fixed"
+    UNSUPPORTED = "unsupported"
+    UNAVAILABLE = "unavailable"
+    ERROR = "error"
+
+    @property
+    def sentence(self) -> str:
+        """What this status means."""
+        return _SENTENCES[self]
+
+    @property
+    def conforms(self) -> bool:
+        """Whether a run that ends so may still exit with 0."""
+        return self in (Status.PASS, Status.KNOWN, Status.UNSUPPORTED)
+
+
+_SENTENCES = {
+    Status.PASS: "The engine does what it must.",
+    Status.FAIL: "The engine does not do what it must.",
+    Status.KNOWN: "A recorded deviation, inside its recorded bound.",
+    Status.FIXED: "A recorded deviation that is gone: remove its record.",
+    Status.UNSUPPORTED: "The engine lacks a feature that the scene needs.",
+    Status.UNAVAILABLE: "The engine is not installed.",
+    Status.ERROR: "The cell crashed, timed out, left the finite numbers, or reset itself.",
+}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What one check found on one cell.
+
+    ``check`` is the kind (truth, order, twin, acceleration, invariant, setup, stability,
+    determinism), ``observable`` what was looked at. ``measured`` and ``allowed`` are in ``unit``;
+    ``at`` is the time [s] of the worst sample. Each is ``None`` where there is no such number.
+    """
+
+    scene: str
+    engine: str
+    engine_version: str
+    scheme: str
+    dt: float
+    check: str
+    observable: str
+    status: Status
+    measured: float | None
+    allowed: float | None
+    unit: str
+    at: float | None
+    message: str

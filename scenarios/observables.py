@@ -1,0 +1,150 @@
+"""What is looked at in a motion, and how far one motion is from another in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..reference.checked import Array
+from . import mechanics
+from .trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+Kind = Literal["state", "rate", "invariant"]
+
+
+@dataclass(frozen=True)
+class Observable:
+    """One quantity in which a motion is compared with another.
+
+    ``difference(scene, a, b)`` gives its signed components (n, k), ``a`` minus ``b``, in ``unit``,
+    one row a sample; a rate, measured over the whole run, has one row. ``scale(scene, b)`` is the
+    size [``unit``] against which round-off is measured. A ``state`` is part of the motion itself, a
+    ``rate`` is a number fitted to it, an ``invariant`` must keep the value it began with.
+    """
+
+    name: str
+    unit: str
+    kind: Kind
+    difference: Callable[[Scene, Trajectory, Trajectory], Array]
+    scale: Callable[[Scene, Trajectory], float]
+
+    def distance(self, scene: Scene, a: Trajectory, b: Trajectory) -> Array:
+        """Length of the difference at each sample, (n,), or (1,) for a rate."""
+        return np.asarray(np.linalg.norm(self.difference(scene, a, b), axis=1), dtype=np.float64)
+
+
+def orientation() -> Observable:
+    """Rotation vector from ``b``'s attitude to ``a``'s, per body; its length is the geodesic angle."""
+
+    def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
+        n = len(a.t)
+        turn = Rotation.from_quat(b.quaternion.reshape(-1, 4)).inv() * Rotation.from_quat(
+            a.quaternion.reshape(-1, 4)
+        )
+        return np.asarray(turn.as_rotvec()).reshape(n, -1)
+
+    return Observable("orientation", "rad", "state", difference, lambda scene, b: 1.0)
+
+
+def _state(name: str, unit: str) -> Observable:
+    def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
+        n = len(a.t)
+        return np.asarray((getattr(a, name) - getattr(b, name)).reshape(n, -1), dtype=np.float64)
+
+    def scale(scene: Scene, b: Trajectory) -> float:
+        array = getattr(b, name).reshape(len(b.t), -1)
+        return float(np.max(np.linalg.norm(array, axis=1)))
+
+    return Observable(name, unit, "state", difference, scale)
+
+
+def omega() -> Observable:
+    """Angular velocity in body axes."""
+    return _state("omega", "rad/s")
+
+
+def position() -> Observable:
+    """Centres of mass in world axes."""
+    return _state("position", "m")
+
+
+def velocity() -> Observable:
+    """Velocities of the centres of mass in world axes."""
+    return _state("velocity", "m/s")
+
+
+def rate(
+    name: str, unit: str, measure: Callable[[Scene, Trajectory], float], exact: Callable[[Scene], float]
+) -> Observable:
+    """Return a number that ``measure`` fits to the motion, against its closed form ``exact``."""
+
+    def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
+        return np.array([[measure(scene, a) - exact(scene)]])
+
+    return Observable(name, unit, "rate", difference, lambda scene, b: abs(exact(scene)))
+
+
+def _invariant(
+    name: str,
+    unit: str,
+    compute: Callable[[Scene, Trajectory], Array],
+    scale: Callable[[Scene, Trajectory], float],
+) -> Observable:
+    def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
+        n = len(a.t)
+        return np.asarray(compute(scene, a).reshape(n, -1) - compute(scene, b).reshape(n, -1)[0])
+
+    return Observable(name, unit, "invariant", difference, scale)
+
+
+def energy() -> Observable:
+    """Kinetic and potential energy, computed from the states."""
+    return _invariant(
+        "energy", "J", mechanics.energy, lambda scene, b: float(np.max(mechanics.kinetic_energy(scene, b)))
+    )
+
+
+def angular_momentum() -> Observable:
+    """Angular momentum about the world's origin, all three components, world axes."""
+    return _invariant(
+        "angular momentum", "kg m²/s", mechanics.angular_momentum_world, mechanics.angular_momentum_scale
+    )
+
+
+def vertical_angular_momentum() -> Observable:
+    """The component of the angular momentum along z: p_α of a top about its fixed point."""
+    return _invariant(
+        "p_alpha",
+        "kg m²/s",
+        lambda scene, a: mechanics.angular_momentum_world(scene, a)[:, 2],
+        mechanics.angular_momentum_scale,
+    )
+
+
+def axial_angular_momentum() -> Observable:
+    """I3 ω3 of the first body: p_γ of a symmetric top."""
+    return _invariant(
+        "p_gamma",
+        "kg m²/s",
+        lambda scene, a: scene.bodies[0].inertia_array[2, 2] * a.omega[:, 0, 2],
+        mechanics.angular_momentum_scale,
+    )
+
+
+def momentum() -> Observable:
+    """Linear momentum of all bodies, world axes."""
+    return _invariant("momentum", "kg m/s", mechanics.momentum, mechanics.momentum_scale)
+
+
+def unit_norm() -> Observable:
+    """Norm of the quaternions, which must stay 1."""
+    return _invariant(
+        "quaternion norm", "1", lambda scene, a: np.linalg.norm(a.quaternion, axis=2), lambda scene, b: 1.0
+    )

@@ -1,0 +1,165 @@
+"""A scene: what is simulated, what is true of it, and what is measured on it."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..reference.checked import Array, finite, positive
+from ..reference.errors import InputError
+from .body import WIDTHS, Body, Joint, Vector
+from .observables import Observable
+from .trajectory import Trajectory
+
+#: Everything a scene may ask of an engine; what it does not name is left out of the model.
+FEATURES: dict[str, str] = {
+    "free": "a body that moves freely",
+    "ball": "ball joints",
+    "hinge": "hinges",
+    "slide": "sliding joints",
+    "weld": "a body welded to its parent",
+    "tree": "several bodies joined to each other",
+    "gravity": "gravity",
+    "spring": "springs in joints",
+    "damper": "dampers in joints",
+}
+
+#: What no scene gets unless a later feature names it, in words for the report.
+NEVER_BUILT = ("collision shapes", "contact solver", "actuators", "sensors", "renderer", "ground")
+
+Truth = Callable[["Scene", Array], Trajectory]
+SchemeMotion = Callable[["Scene", str, float, Array], Trajectory | None]
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """One system, one set of parameters, one initial state: immutable and known to no engine.
+
+    ``q0`` and ``v0`` hold every joint's coordinates, body by body, in the widths of ``WIDTHS``.
+    The run lasts ``duration`` [s] and is looked at ``samples`` times after the start, evenly.
+    ``dt`` [s] is the step to run at when none is asked for; ``ladders`` maps a scheme's order to
+    the steps over which that order is measured.
+
+    ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
+    *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
+    ``errors[twin][observable]`` is the recorded constant C of the scheme's error C·dt^order.
+
+    Raises ``InputError`` on loading when something cannot be: the message names scene and field.
+    """
+
+    name: str
+    summary: str
+    source: str
+    bodies: tuple[Body, ...]
+    q0: tuple[float, ...]
+    v0: tuple[float, ...]
+    duration: float
+    samples: int
+    truth: Truth
+    observables: tuple[Observable, ...]
+    variant: str = ""
+    gravity: Vector = (0.0, 0.0, 0.0)
+    dt: float = 1e-3
+    ladders: Mapping[int, tuple[float, ...]] = field(default_factory=dict)
+    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    scheme_motion: SchemeMotion | None = None
+
+    def __post_init__(self) -> None:
+        try:
+            self._check()
+        except InputError as error:
+            raise InputError(f"scene {self.full_name}: {error}") from error
+
+    @property
+    def full_name(self) -> str:
+        """``scene[variant]``, or ``scene`` where there is only one."""
+        return f"{self.name}[{self.variant}]" if self.variant else self.name
+
+    @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """Every joint, body by body."""
+        return tuple(joint for body in self.bodies for joint in body.joints)
+
+    @cached_property
+    def scalar_joints(self) -> tuple[Joint, ...]:
+        """The hinges and slides: the joints that a trajectory's ``joint_position`` speaks of."""
+        return tuple(joint for joint in self.joints if joint.kind in ("hinge", "slide"))
+
+    @cached_property
+    def features(self) -> frozenset[str]:
+        """What an engine must have to build this scene: keys of ``FEATURES``."""
+        found = {joint.kind for joint in self.joints}
+        optional = {
+            "weld": any(not body.joints for body in self.bodies),
+            "tree": any(body.parent for body in self.bodies),
+            "gravity": any(self.gravity),
+            "spring": any(joint.stiffness for joint in self.joints),
+            "damper": any(joint.damping for joint in self.joints),
+        }
+        return frozenset(found | {name for name, present in optional.items() if present})
+
+    @cached_property
+    def left_out(self) -> tuple[str, ...]:
+        """What an engine's model of this scene does not hold, in words."""
+        return (*(words for name, words in FEATURES.items() if name not in self.features), *NEVER_BUILT)
+
+    def sample_times(self) -> Array:
+        """Times of the samples, (samples + 1,) [s], the start included."""
+        return np.asarray(np.arange(self.samples + 1) * (self.duration / self.samples))
+
+    def steps_per_sample(self, dt: float) -> int:
+        """Whole steps between two samples, for a step of ``dt`` [s] or the nearest that divides it."""
+        positive("dt", dt)
+        if dt > self.duration * (1 + 1e-12):
+            raise InputError(
+                f"dt: got {dt:g} s, expected at most {self.duration:g} s, the whole run of {self.full_name}"
+            )
+        return max(1, round(self.duration / self.samples / dt))
+
+    def whole_step(self, dt: float) -> float:
+        """The step [s] nearest to ``dt`` that divides the time between two samples."""
+        exact = self.duration / self.samples / self.steps_per_sample(dt)
+        return dt if abs(dt / exact - 1) < 1e-12 else exact
+
+    def slices(self) -> list[tuple[Body, Joint, slice, slice]]:
+        """Each joint with its body and its places in ``q0`` and ``v0``."""
+        result, q, v = [], 0, 0
+        for body in self.bodies:
+            for joint in body.joints:
+                nq, nv = WIDTHS[joint.kind]
+                result.append((body, joint, slice(q, q + nq), slice(v, v + nv)))
+                q, v = q + nq, v + nv
+        return result
+
+    def as_json(self) -> str:
+        """The scene as JSON, stable from run to run: what the log keeps and a reader compares."""
+        skipped = {"truth", "observables", "scheme_motion", "errors", "ladders"}
+        plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
+        plain["observables"] = [observable.name for observable in self.observables]
+        return json.dumps(plain, default=lambda part: part.__dict__, sort_keys=True)
+
+    def _check(self) -> None:
+        positive("duration", self.duration)
+        positive("dt", self.dt)
+        finite("gravity", self.gravity, (3,))
+        if self.samples < 1:
+            raise InputError(f"samples: got {self.samples}, expected at least 1")
+        names = [body.name for body in self.bodies]
+        if len(set(names)) != len(names) or not names:
+            raise InputError(f"bodies: got the names {names}, expected at least one, each different")
+        for place, body in enumerate(self.bodies):
+            if body.parent is not None and body.parent not in names[:place]:
+                raise InputError(
+                    f"body {body.name!r} parent: got {body.parent!r}, expected a body listed before it"
+                )
+        nq, nv = (sum(WIDTHS[joint.kind][side] for joint in self.joints) for side in (0, 1))
+        q0 = finite("q0", self.q0, (nq,))
+        finite("v0", self.v0, (nv,))
+        for _, joint, where, _ in self.slices():
+            if joint.kind in ("free", "ball") and abs(float(np.linalg.norm(q0[where][-4:])) - 1) > 1e-9:
+                raise InputError(
+                    f"q0 of joint {joint.name!r}: got {q0[where].tolist()}, expected a unit quaternion"
+                )
