@@ -1,7 +1,8 @@
 """A line of N equal beads joined by equal springs, moving along the line.
 
-Source: Fetter & Walecka, *Theoretical Mechanics of Particles and Continua*, § 24 (many degrees of
-freedom: the chain of masses); Goldstein, *Classical Mechanics*, ch. 6.
+Source: Fetter & Walecka, *Theoretical Mechanics of Particles and Continua*, ch. 4 (small oscillations,
+many degrees of freedom); the waves are those of a lattice, e.g. Kittel, *Introduction to Solid State
+Physics*, ch. 4 (one atom per cell).
 """
 
 from typing import Literal
@@ -21,7 +22,7 @@ def energies(beads: int, m: float, k: float, ends: Ends = "walls") -> tuple[Arra
     """T and V (N, N) [kg, N/m] for beads of mass m [kg] and springs k [N/m].
 
     Raises InputError for fewer than one bead (three in a ring), m or k not positive, or other ends.
-    Source: Fetter & Walecka § 24.
+    Source: Fetter & Walecka ch. 4.
     """
     beads = _count(beads, ends)
     m, k = positive("m", m), positive("k", k)
@@ -41,7 +42,7 @@ def frequencies(beads: int, m: float, k: float, ends: Ends = "walls") -> Array:
     κ = jπ/(N + 1) between walls, (2j − 1)π/(2N + 1) on one wall (j = 1 … N); jπ/N when free and
     2πj/N in a ring (j = 0 … N − 1, a ring's pairs equal).
 
-    Raises as `energies` does. Source: Fetter & Walecka § 24; Goldstein ch. 6, exercises on chains.
+    Raises as `energies` does. Source: Fetter & Walecka ch. 4.
     """
     beads = _count(beads, ends)
     m, k = positive("m", m), positive("k", k)

@@ -20,7 +20,7 @@ def normal_modes(T: npt.ArrayLike, V: npt.ArrayLike) -> tuple[Array, Array]:
     """Frequencies and modes of Tη̈ + Vη = 0, the slowest first.
 
     A frequency is exactly 0 where rounding the entries of V could have made it so; modes of equal
-    frequency are orthogonal under T. The first large entry of every mode is positive.
+    frequency are orthogonal under T. Of each mode, the first entry above half its largest is positive.
 
     Parameters
     ----------
