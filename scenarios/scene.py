@@ -12,6 +12,7 @@ from ..reference.checked import Array, finite, positive
 from ..reference.errors import InputError
 from .body import WIDTHS, Body, Joint, Vector
 from .observables import Observable
+from .pictures import Picture
 from .trajectory import Trajectory
 
 #: Everything a scene may ask of an engine; what it does not name is left out of the model.
@@ -60,6 +61,7 @@ class Scene:
     samples: int
     truth: Truth
     observables: tuple[Observable, ...]
+    pictures: tuple[Picture, ...] = ()
     variant: str = ""
     gravity: Vector = (0.0, 0.0, 0.0)
     dt: float = 1e-3
@@ -136,7 +138,7 @@ class Scene:
 
     def as_json(self) -> str:
         """The scene as JSON, stable from run to run: what the log keeps and a reader compares."""
-        skipped = {"truth", "observables", "scheme_motion", "errors", "ladders"}
+        skipped = {"truth", "observables", "pictures", "scheme_motion", "errors", "ladders"}
         plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
         plain["observables"] = [observable.name for observable in self.observables]
         return json.dumps(plain, default=lambda part: part.__dict__, sort_keys=True)
