@@ -24,7 +24,8 @@ class Joint:
     Coordinates (q) and velocities (v) of each kind:
     free: place of the link's origin in the world (3) [m] and quaternion (4); its velocity in world axes
     (3) [m/s] and ω in the link's axes (3) [rad/s]. Only alone, on a link whose parent is the world.
-    ball: quaternion (4) of the turn; ω in the link's axes, relative to what the joint turns on [rad/s].
+    ball: quaternion (4) of the turn; ω relative to what carries the joint, in the turned axes, which are
+    the link's unless another joint follows on the same link [rad/s].
     hinge: angle [rad], right-handed about ``axis``; slide: distance along ``axis`` [m].
 
     Parameters

@@ -20,7 +20,8 @@ def product(p: Array, q: Array) -> Array:
     qv, qw = q[..., :3], q[..., 3:]
     vector = pw * qv + qw * pv + np.cross(pv, qv)
     scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
-    return np.concatenate([vector, scalar], axis=-1)
+    result: Array = np.concatenate([vector, scalar], axis=-1)
+    return result
 
 
 def conjugate(q: Array) -> Array:
