@@ -26,7 +26,7 @@ def product(p: Array, q: Array) -> Array:
 
 def conjugate(q: Array) -> Array:
     """The opposite turn of the unit quaternion ``q`` (..., 4)."""
-    return q * np.array([-1.0, -1.0, -1.0, 1.0])
+    return np.concatenate([-q[..., :3], q[..., 3:]], axis=-1)
 
 
 def rotated(q: Array, vector: Array) -> Array:
