@@ -1,0 +1,173 @@
+"""Theta functions over a rectangle of quarter periods (K, K′), for phases along the real axis.
+
+With z = πu/(2K) and the nome q = exp(−πK′/K) the four functions are (Whittaker & Watson, *A Course of
+Modern Analysis*, § 21.1; DLMF § 20.2)
+
+    θ1 = 2 Σ (−1)ⁿ q^(n+½)² sin (2n+1)z      θ3 = 1 + 2 Σ q^n² cos 2nz
+    θ2 = 2 Σ       q^(n+½)² cos (2n+1)z      θ4 = 1 + 2 Σ (−1)ⁿ q^n² cos 2nz
+
+Where K > K′ (a modulus near 1) Jacobi's imaginary transformation (W & W § 21.51, DLMF § 20.7(viii))
+writes them in q′ = exp(−πK/K′) and hyperbolic functions of v = πu/(2K′): θ1, θ2, θ3, θ4 become, but for
+one Gaussian factor, the functions 1, 4, 3, 2 of iv. The nome in use is at most exp(−π), so five terms do,
+and on the separatrix itself (K = ∞) one.
+
+Only ratios and arguments are wanted, so each function is scaled to a first coefficient of 1, and in the
+hyperbolic form all four are divided by cosh v, which keeps them finite at any distance.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .checked import Array
+from .double_double import Pair, two_sum
+from .precise import mp
+
+#: Terms kept in a case's scalars: the first one left out is below 10⁻⁵⁵ even where q = exp(−π).
+_TERMS = 8
+
+#: A term this small beside the first is left out where times are in double [1].
+_NEGLIGIBLE = 1e-19
+
+#: Beyond this v hyperbolic functions are taken as at it: what is left of them is below 10⁻³⁰⁰.
+_FARTHEST = 690.0
+
+
+class Lattice(NamedTuple):
+    """Quarter periods along the real and the imaginary axis, as mpmath numbers; K or K′ may be infinite."""
+
+    K: Any
+    K_prime: Any
+
+    @property
+    def hyperbolic(self) -> bool:
+        """Whether the series in q′ converges faster."""
+        return bool(self.K_prime < self.K)
+
+    @property
+    def nome(self) -> Any:
+        """The q or q′ that the series use: at most exp(−π)."""
+        near, far = sorted((self.K, self.K_prime))
+        return mp.mpf(0) if mp.isinf(far) else mp.exp(-mp.pi * far / near)
+
+    @property
+    def scale(self) -> Any:
+        """z/u or v/u: π over twice the shorter quarter period."""
+        return mp.pi / (2 * min(self.K, self.K_prime))
+
+
+class Waves(NamedTuple):
+    """sin z, cos z, cos 2z and 1; or tanh v, 1, cosh 2v and sech v."""
+
+    sine: Array
+    cosine: Array
+    double: Array
+    damping: Array
+
+
+def waves(lattice: Lattice, remainder: Pair) -> Waves:
+    """What the theta functions at u = ``remainder``, within K/2 of 0, are made of."""
+    scale = float(lattice.scale), float(lattice.scale - float(lattice.scale))
+    high = scale[0] * remainder[0]
+    low = scale[0] * remainder[1] + scale[1] * remainder[0]
+    x, low = two_sum(high, low)
+    if not lattice.hyperbolic:
+        sine = np.sin(x)
+        return Waves(sine, np.cos(x), 1 - 2 * sine * sine, np.ones_like(x))
+    x = np.clip(x, -_FARTHEST, _FARTHEST)
+    sine = np.tanh(x)
+    # cosh 2v only ever multiplies powers of q′ that make up for it: only its overflow is to be kept off.
+    double = np.cosh(np.clip(2 * x, -_FARTHEST, _FARTHEST))
+    # The low part matters where v is large: sech v falls by as much, relative to itself, as v grows.
+    return Waves(sine, np.ones_like(x), double, (1 - low * sine) / np.cosh(x))
+
+
+def theta(lattice: Lattice, index: int, depth: Any, w: Waves) -> tuple[Array, Array]:
+    """Real and imaginary part of θ_index at u + i·depth, over a factor.
+
+    The factor is positive, but for the hyperbolic form's Gaussian, which turns as exp(−iμu/K) with
+    μ = π·depth/(2K′) and is left to the caller.
+    """
+    index = _transformed(lattice, index)
+    real, imaginary = (_floats(lattice, c) for c in _coefficients(lattice, index, depth))
+    if index == 1:
+        return w.sine * _clenshaw(real, w.double, 1), w.cosine * _clenshaw(imaginary, w.double, -1)
+    if index == 2:
+        return w.cosine * _clenshaw(real, w.double, -1), w.sine * _clenshaw(imaginary, w.double, 1)
+    twice = 2 * w.sine * w.cosine / w.damping
+    return w.damping * _clenshaw(real, w.double, 0), twice * _clenshaw(imaginary[1:], w.double, 2)
+
+
+def slope(lattice: Lattice, index: int, depth: Any) -> Any:
+    """d/du of the argument of θ_index(u + i·depth) at u = 0, as an mpmath number [rad per unit of u].
+
+    Without the Gaussian's share in the hyperbolic form.
+    """
+    index = _transformed(lattice, index)
+    real, imaginary = _coefficients(lattice, index, depth)
+    odd = index in (1, 2)
+    orders = [2 * n + 1 if odd else 2 * n for n in range(len(real))]
+    if index == 1:
+        return -lattice.scale * _dot(orders, real) / mp.fsum(imaginary)
+    return lattice.scale * _dot(orders, imaginary) / mp.fsum(real)
+
+
+def first_slope(lattice: Lattice) -> Any:
+    """dθ1/du at u = 0 in the scale of `theta`, as an mpmath number."""
+    real, _ = _coefficients(lattice, 1, 0)
+    return lattice.scale * _dot([2 * n + 1 for n in range(len(real))], real)
+
+
+def at_origin(lattice: Lattice, index: int) -> Any:
+    """θ_index(0), index 2 to 4, in the scale of `theta`, as an mpmath number."""
+    real, _ = _coefficients(lattice, _transformed(lattice, index), 0)
+    return mp.fsum(real)
+
+
+def _transformed(lattice: Lattice, index: int) -> int:
+    return {1: 1, 2: 4, 3: 3, 4: 2}[index] if lattice.hyperbolic else index
+
+
+def _coefficients(lattice: Lattice, index: int, depth: Any) -> tuple[list[Any], list[Any]]:
+    """Coefficients of the real and the imaginary series of the function ``index``, already transformed."""
+    p, alternating, odd = lattice.nome, index in (1, 4), index in (1, 2)
+    real, imaginary = [], []
+    for n in range(_TERMS):
+        order = 2 * n + 1 if odd else 2 * n
+        power = n * (n + 1) if odd else n * n
+        size = p**power * (-1) ** (n * alternating) * (1 if odd or n == 0 else 2)
+        angle = order * lattice.scale * depth
+        if lattice.hyperbolic:
+            even_part, odd_part = mp.cos(angle), mp.sin(angle)
+        else:
+            even_part, odd_part = mp.cosh(angle), mp.sinh(angle) * (1 if index == 1 else -1)
+        real.append(size * even_part)
+        imaginary.append(size * odd_part)
+    return real, imaginary
+
+
+def _floats(lattice: Lattice, coefficients: list[Any]) -> list[float]:
+    """The coefficients worth keeping in double, cosh 2nv ≤ q′^(−n/2) allowed for."""
+    root = mp.sqrt(lattice.nome) if lattice.hyperbolic and lattice.nome else mp.mpf(1)
+    growth = [root**-n for n in range(_TERMS)]
+    kept = [n for n, c in enumerate(coefficients) if abs(c) * growth[n] > _NEGLIGIBLE * abs(coefficients[0])]
+    return [float(c) for c in coefficients[: max(kept, default=0) + 1]]
+
+
+def _clenshaw(coefficients: list[float], x: Array, kind: int) -> Array:
+    """Σ a_n P_n(x), P_n the Chebyshev polynomials of the kind that starts 1, 2x − (x, 0, 1 or −1).
+
+    Kinds 0, 2, −1, 1: cos nθ; sin (n+1)θ/sin θ; cos (n+½)θ/cos ½θ; sin (n+½)θ/sin ½θ, with x = cos θ
+    (DLMF § 18.5(i)). The same holds for hyperbolic functions.
+    """
+    after = np.zeros_like(x)
+    here = np.zeros_like(x)
+    for a in reversed(coefficients):
+        after, here = here, a + 2 * x * here - after
+    if kind == 0:
+        return here - x * after
+    return here - {2: 0.0, -1: 1.0, 1: -1.0}[kind] * after
+
+
+def _dot(a: list[Any], b: list[Any]) -> Any:
+    return mp.fsum(x * y for x, y in zip(a, b, strict=True))
