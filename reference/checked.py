@@ -54,6 +54,11 @@ def within(name: str, value: npt.ArrayLike, low: float, high: float) -> float:
     return result
 
 
+def times(name: str, value: npt.ArrayLike) -> Array:
+    """``value`` as finite times (n,); a single number counts as one time."""
+    return finite(name, np.atleast_1d(finite(name, value)), (-1,))
+
+
 def unit_quaternion(name: str, value: npt.ArrayLike) -> Array:
     """``value`` (4,), scalar last, normalised; raises if its norm is off by more than 1e-9."""
     q = finite(name, value, (4,))
