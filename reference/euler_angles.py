@@ -7,7 +7,7 @@ angles (..., 3) [rad] and rates or ω (..., 3) [rad/s] that broadcast, and retur
 Everything raises InputError if an array does not end in three finite numbers; `*_rates*` also where the
 middle angle has no sine, for there one ω belongs to many rates.
 
-Source: Goldstein, *Classical Mechanics*, § 4.4 (z-x-z), § 4.9 eqs. (4.86)–(4.87), appendix A (z-y-z);
+Source: Goldstein, *Classical Mechanics*, § 4.4 (z-x-z), § 4.9 eq. (4.87), appendix A (z-y-z);
 Landau & Lifshitz, *Mechanics*, § 35; Fetter & Walecka, *Theoretical Mechanics of Particles and
 Continua*, ch. 5 (z-y-z).
 """
@@ -126,7 +126,7 @@ def zxz_angles(q: npt.ArrayLike) -> Array:
 def zxz_direction_cosines(angles: npt.ArrayLike) -> Array:
     """A (..., 3, 3) = A_ψ A_θ A_φ, whose rows are the body axes in world axes: x′ = A x.
 
-    The order of the factors is the reverse of what some notes print. Source: Goldstein eqs. (4.45)–(4.46).
+    The order of the factors is the reverse of what some notes print. Source: Goldstein eq. (4.46).
     """
     phi, th, psi = _parts("angles", angles)
     (cf, sf), (ct, st), (cp, sp) = ((np.cos(x), np.sin(x)) for x in (phi, th, psi))

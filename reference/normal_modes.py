@@ -6,14 +6,10 @@ Source: Goldstein, *Classical Mechanics*, §§ 6.1–6.3; Landau & Lifshitz, *Me
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
 
 from .checked import Array, finite
+from .eigenpairs import Long, eigenpairs, energy_matrices
 from .errors import InputError
-
-Long = npt.NDArray[np.longdouble]
-
-_EPS = float(np.finfo(np.float64).eps)
 
 
 def normal_modes(T: npt.ArrayLike, V: npt.ArrayLike) -> tuple[Array, Array]:
@@ -99,63 +95,12 @@ def motion(
     return q.astype(np.float64), v.astype(np.float64)
 
 
-def energy_matrices(T: npt.ArrayLike, V: npt.ArrayLike) -> tuple[Array, Array]:
-    """T and V (n, n) as symmetric arrays of one size; raises InputError if they are not that."""
-    masses, stiffness = _symmetric("T", T), _symmetric("V", V)
-    if masses.shape != stiffness.shape:
-        raise InputError(f"T, V: got shapes {masses.shape} and {stiffness.shape}, expected two equal ones")
-    if np.any(np.diagonal(masses) <= 0):
-        raise InputError(f"T: got diagonal {np.diagonal(masses).tolist()}, expected entries above 0")
-    return masses, stiffness
-
-
-def _symmetric(name: str, value: npt.ArrayLike) -> Array:
-    matrix = finite(name, value, (-1, -1))
-    if matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
-        raise InputError(f"{name}: got an array of shape {matrix.shape}, expected a square matrix")
-    if np.any(np.abs(matrix - matrix.T) > 4 * _EPS * np.abs(matrix).max()):
-        raise InputError(f"{name}: got {matrix.tolist()}, expected a symmetric matrix")
-    return matrix / 2 + matrix.T / 2
-
-
 def _extended_modes(masses: Array, stiffness: Array) -> tuple[Long, Long]:
-    # Powers of two scale exactly, so matrices that are singular in double stay so.
-    scale = np.exp2(np.round(-np.log2(np.diagonal(masses)) / 2))
-    T, V = (scale[:, None] * matrix * scale for matrix in (masses, stiffness))
-    try:
-        # Two steps of this kind square the error twice: from 1e-13 to below extended rounding.
-        A = _refined(T, V, _refined(T, V, scipy.linalg.eigh(V, T)[1].astype(np.longdouble)))
-    except np.linalg.LinAlgError as cause:
-        raise InputError(f"T: got {masses.tolist()}, expected a positive definite matrix") from cause
-    squares = _squared_frequencies(V, A)
-    order = np.argsort(squares, kind="stable")
-    A = A[:, order] * scale[:, None].astype(np.longdouble)
-    leading = np.argmax(np.abs(A) > 0.5 * np.abs(A).max(axis=0), axis=0)
-    return np.sqrt(squares[order]), A * np.sign(A[leading, np.arange(len(A))])
-
-
-def _refined(T: Array, V: Array, A: Long) -> Long:
-    # One Newton step on AᵀTA = 1 and AᵀVA diagonal (Ogita & Aishima 2018, for one matrix, with T added).
-    excess = np.eye(len(T)) - A.T @ (T @ A)
-    S = A.T @ (V @ A)
-    squares = np.diagonal(S) / (1 - np.diagonal(excess))
-    gap = squares - squares[:, None]
-    unsettled = np.linalg.norm((S - np.diag(np.diagonal(S))).astype(np.float64))
-    unsettled += np.abs(squares).max() * np.linalg.norm(excess.astype(np.float64))
-    apart = np.abs(gap) > 2 * unsettled
-    # Where frequencies are equal only orthogonality is left to ask for.
-    return A + A @ np.where(apart, (S + squares * excess) / np.where(apart, gap, 1), excess / 2)
-
-
-def _squared_frequencies(V: Array, A: Long) -> Long:
-    squares = np.einsum("ik,ij,jk->k", A, V, A)
-    # What a relative change of a few eps in the entries of V can do to aᵀVa.
-    rounding = len(V) * _EPS * np.einsum("ik,ij,jk->k", np.abs(A), np.abs(V), np.abs(A))
-    squares = np.where(np.abs(squares) <= rounding, 0, squares)
+    squares, A = eigenpairs(masses, stiffness)
     if np.any(squares < 0):
         rate = float(np.sqrt(-squares.min()))
         raise InputError(
             f"V: got a matrix under which a displacement grows at {rate:g} 1/s; expected a stable or "
             "neutral equilibrium, ηᵀVη ≥ 0 for every η"
         )
-    return squares
+    return np.sqrt(squares), A

@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .checked import Array, finite, positive
+from .eigenpairs import Long, energy_matrices
 from .errors import InputError
-from .normal_modes import Long, energy_matrices
 
 Scheme = Literal[
     "semi_implicit_euler", "implicit_damping", "rk4", "implicit_euler", "implicit_midpoint", "explicit_euler"
