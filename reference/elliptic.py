@@ -24,7 +24,7 @@ from .checked import Array
 from .double_double import Pair, affine, fraction, pair, scale
 from .errors import InputError
 from .precise import mp
-from .theta import Lattice, at_origin, first_slope, slope, theta, waves
+from .theta import Lattice, Waves, at_origin, lattice, slope, theta, theta_above, waves
 
 ComplexArray = npt.NDArray[np.complex128]
 
@@ -66,7 +66,7 @@ def modulus(m: Any, m1: Any) -> Modulus:
     m, m1 = mp.mpf(m), mp.mpf(m1)
     if not (m >= 0 and m1 >= 0 and abs(m + m1 - 1) < 1e-15):
         raise InputError(f"m, m1: got {float(m)}, {float(m1)}; expected two numbers from 0 to 1, sum 1")
-    return Modulus(m, m1, Lattice(_quarter_period(m1), _quarter_period(m)))
+    return Modulus(m, m1, lattice(_quarter_period(m1), _quarter_period(m)))
 
 
 def first_kind(sn: Any, cn: Any, dn: Any) -> Any:
@@ -95,13 +95,12 @@ def jacobi(modulus: Modulus, phase: Phase) -> tuple[Array, Array, Array]:
 
     DLMF § 22.2: quotients of theta functions, here within K/2 of 0, and § 22.4(iii) for the shift by K.
     """
-    lattice = modulus.lattice
-    w = waves(lattice, phase.remainder)
-    one, two, three, four = (theta(lattice, index, 0, w)[0] for index in (1, 2, 3, 4))
-    origin = at_origin(lattice, 4)
-    s = float(origin / first_slope(lattice)) * one / four
-    c = float(origin / at_origin(lattice, 2)) * two / four
-    d = float(origin / at_origin(lattice, 3)) * three / four
+    w = waves(modulus.lattice, phase.remainder)
+    four, origin = theta(modulus.lattice, 4, w), at_origin(modulus.lattice, 4)
+    s, c, d = (
+        float(origin / at_origin(modulus.lattice, index)) * theta(modulus.lattice, index, w) / four
+        for index in (1, 2, 3)
+    )
     k1 = float(mp.sqrt(modulus.m1))
     step = np.mod(phase.quarter, 4)
     odd, sign = step % 2 == 1, np.where(step >= 2, -1.0, 1.0)
@@ -115,8 +114,8 @@ def jacobi(modulus: Modulus, phase: Phase) -> tuple[Array, Array, Array]:
 def turn(lattice: Lattice, index: int, depth: Any, phase: Phase) -> ComplexArray:
     """exp(i arg θ_index(u + i·depth)) (n,), a unit complex number at each u of ``phase``.
 
-    ``lattice`` may be another than the modulus's own if it has the same K (`Lattice(K, 2K′)` for dn);
-    ``depth`` (mpmath number) is real, from −K′ to K′ of that lattice.
+    ``lattice`` may be another than the modulus's own if it has the same K (`theta.doubled` for integrals
+    over dn); ``depth`` (mpmath number) is real, from −K′ to K′ of that lattice.
     """
     w = waves(lattice, phase.remainder)
     step = np.mod(phase.quarter, 4)
@@ -126,7 +125,7 @@ def turn(lattice: Lattice, index: int, depth: Any, phase: Phase) -> ComplexArray
         if not here.any():
             continue
         shifted, sign = _shifted(index, moved)
-        real, imaginary = theta(lattice, shifted, depth, type(w)(*(part[here] for part in w)))
+        real, imaginary = theta_above(lattice, shifted, depth, Waves(*(part[here] for part in w)))
         result[here] = sign * (real + 1j * imaginary)
     result /= np.abs(result)
     if lattice.hyperbolic:

@@ -21,10 +21,10 @@ import numpy as np
 
 from .checked import Array
 from .double_double import Pair, two_sum
-from .precise import mp
+from .precise import DIGITS, mp
 
-#: Terms kept in a case's scalars: the first one left out is below 10⁻⁵⁵ even where q = exp(−π).
-_TERMS = 8
+#: A term this small beside the first is left out of a case's scalars [1].
+_BEYOND_DIGITS = mp.mpf(10) ** (-DIGITS - 5)
 
 #: A term this small beside the first is left out where times are in double [1].
 _NEGLIGIBLE = 1e-19
@@ -34,26 +34,28 @@ _FARTHEST = 690.0
 
 
 class Lattice(NamedTuple):
-    """Quarter periods along the real and the imaginary axis, as mpmath numbers; K or K′ may be infinite."""
+    """Quarter periods along the real and the imaginary axis, and what the series need of them.
+
+    All are mpmath numbers; K or K′ may be infinite. ``nome`` is the q or q′ in use, ``scale`` z/u or v/u.
+    """
 
     K: Any
     K_prime: Any
+    hyperbolic: bool
+    nome: Any
+    scale: Any
 
-    @property
-    def hyperbolic(self) -> bool:
-        """Whether the series in q′ converges faster."""
-        return bool(self.K_prime < self.K)
 
-    @property
-    def nome(self) -> Any:
-        """The q or q′ that the series use: at most exp(−π)."""
-        near, far = sorted((self.K, self.K_prime))
-        return mp.mpf(0) if mp.isinf(far) else mp.exp(-mp.pi * far / near)
+def lattice(K: Any, K_prime: Any) -> Lattice:
+    """The lattice with quarter periods ``K`` and ``K_prime``, of which one may be infinite."""
+    near, far = min(K, K_prime), max(K, K_prime)
+    nome = mp.mpf(0) if mp.isinf(far) else mp.exp(-mp.pi * far / near)
+    return Lattice(K, K_prime, bool(K_prime < K), nome, mp.pi / (2 * near))
 
-    @property
-    def scale(self) -> Any:
-        """z/u or v/u: π over twice the shorter quarter period."""
-        return mp.pi / (2 * min(self.K, self.K_prime))
+
+def doubled(once: Lattice) -> Lattice:
+    """The lattice with twice the imaginary period, which is the period of dn."""
+    return lattice(once.K, 2 * once.K_prime)
 
 
 class Waves(NamedTuple):
@@ -82,8 +84,19 @@ def waves(lattice: Lattice, remainder: Pair) -> Waves:
     return Waves(sine, np.ones_like(x), double, (1 - low * sine) / np.cosh(x))
 
 
-def theta(lattice: Lattice, index: int, depth: Any, w: Waves) -> tuple[Array, Array]:
-    """Real and imaginary part of θ_index at u + i·depth, over a factor.
+def theta(lattice: Lattice, index: int, w: Waves) -> Array:
+    """θ_index(u) (n,), over a positive factor of its own."""
+    index = _transformed(lattice, index)
+    coefficients = _floats(lattice, _sizes(lattice, index))
+    if index == 1:
+        return w.sine * _clenshaw(coefficients, w.double, 1)
+    if index == 2:
+        return w.cosine * _clenshaw(coefficients, w.double, -1)
+    return w.damping * _clenshaw(coefficients, w.double, 0)
+
+
+def theta_above(lattice: Lattice, index: int, depth: Any, w: Waves) -> tuple[Array, Array]:
+    """Real and imaginary part (n,) of θ_index(u + i·depth), over a factor.
 
     The factor is positive, but for the hyperbolic form's Gaussian, which turns as exp(−iμu/K) with
     μ = π·depth/(2K′) and is left to the caller.
@@ -105,52 +118,55 @@ def slope(lattice: Lattice, index: int, depth: Any) -> Any:
     """
     index = _transformed(lattice, index)
     real, imaginary = _coefficients(lattice, index, depth)
-    odd = index in (1, 2)
-    orders = [2 * n + 1 if odd else 2 * n for n in range(len(real))]
     if index == 1:
-        return -lattice.scale * _dot(orders, real) / mp.fsum(imaginary)
-    return lattice.scale * _dot(orders, imaginary) / mp.fsum(real)
-
-
-def first_slope(lattice: Lattice) -> Any:
-    """dθ1/du at u = 0 in the scale of `theta`, as an mpmath number."""
-    real, _ = _coefficients(lattice, 1, 0)
-    return lattice.scale * _dot([2 * n + 1 for n in range(len(real))], real)
+        return -lattice.scale * _dot(_orders(index, real), real) / mp.fsum(imaginary)
+    return lattice.scale * _dot(_orders(index, real), imaginary) / mp.fsum(real)
 
 
 def at_origin(lattice: Lattice, index: int) -> Any:
-    """θ_index(0), index 2 to 4, in the scale of `theta`, as an mpmath number."""
-    real, _ = _coefficients(lattice, _transformed(lattice, index), 0)
-    return mp.fsum(real)
+    """θ_index(0), or for index 1 dθ1/du(0), in the scale of `theta`, as an mpmath number."""
+    index = _transformed(lattice, index)
+    sizes = _sizes(lattice, index)
+    return lattice.scale * _dot(_orders(index, sizes), sizes) if index == 1 else mp.fsum(sizes)
 
 
 def _transformed(lattice: Lattice, index: int) -> int:
     return {1: 1, 2: 4, 3: 3, 4: 2}[index] if lattice.hyperbolic else index
 
 
+def _sizes(lattice: Lattice, index: int) -> list[Any]:
+    """Coefficients of the series on the real axis; ``index`` is that of the function in use."""
+    p, sign, sizes = lattice.nome, -1 if index in (1, 4) else 1, [mp.mpf(1)]
+    for n in range(1, 20):
+        size = p ** (n * (n + 1)) if index in (1, 2) else 2 * p ** (n * n)
+        # A term may grow by q^(−n) above the real axis, or by q′^(−n/2) along it.
+        if size <= _BEYOND_DIGITS * p**n:
+            break
+        sizes.append(sign**n * size)
+    return sizes
+
+
 def _coefficients(lattice: Lattice, index: int, depth: Any) -> tuple[list[Any], list[Any]]:
-    """Coefficients of the real and the imaginary series of the function ``index``, already transformed."""
-    p, alternating, odd = lattice.nome, index in (1, 4), index in (1, 2)
-    real, imaginary = [], []
-    for n in range(_TERMS):
-        order = 2 * n + 1 if odd else 2 * n
-        power = n * (n + 1) if odd else n * n
-        size = p**power * (-1) ** (n * alternating) * (1 if odd or n == 0 else 2)
-        angle = order * lattice.scale * depth
-        if lattice.hyperbolic:
-            even_part, odd_part = mp.cos(angle), mp.sin(angle)
-        else:
-            even_part, odd_part = mp.cosh(angle), mp.sinh(angle) * (1 if index == 1 else -1)
-        real.append(size * even_part)
-        imaginary.append(size * odd_part)
-    return real, imaginary
+    """Coefficients of the real and the imaginary series at a depth; ``index`` as for `_sizes`."""
+    sizes = _sizes(lattice, index)
+    angles = [order * lattice.scale * depth for order in _orders(index, sizes)]
+    if lattice.hyperbolic:
+        even, odd = [mp.cos(a) for a in angles], [mp.sin(a) for a in angles]
+    else:
+        backwards = 1 if index == 1 else -1
+        even, odd = [mp.cosh(a) for a in angles], [backwards * mp.sinh(a) for a in angles]
+    return [s * e for s, e in zip(sizes, even, strict=True)], [s * o for s, o in zip(sizes, odd, strict=True)]
+
+
+def _orders(index: int, sizes: list[Any]) -> list[int]:
+    return [2 * n + (index in (1, 2)) for n in range(len(sizes))]
 
 
 def _floats(lattice: Lattice, coefficients: list[Any]) -> list[float]:
     """The coefficients worth keeping in double, cosh 2nv ≤ q′^(−n/2) allowed for."""
-    root = mp.sqrt(lattice.nome) if lattice.hyperbolic and lattice.nome else mp.mpf(1)
-    growth = [root**-n for n in range(_TERMS)]
-    kept = [n for n, c in enumerate(coefficients) if abs(c) * growth[n] > _NEGLIGIBLE * abs(coefficients[0])]
+    root = mp.sqrt(lattice.nome) if lattice.hyperbolic else mp.mpf(1)
+    least = _NEGLIGIBLE * abs(coefficients[0])
+    kept = [n for n, c in enumerate(coefficients) if abs(c) > least * root**n]
     return [float(c) for c in coefficients[: max(kept, default=0) + 1]]
 
 
