@@ -70,6 +70,20 @@ def unit_quaternion(name: str, value: npt.ArrayLike) -> Array:
     return q / norm
 
 
+def unit_quaternions(name: str, value: npt.ArrayLike) -> Array:
+    """``value`` (..., 4), scalar last; raises if a norm is off 1 by more than 1e-9."""
+    q = finite(name, value)
+    if q.ndim == 0 or q.shape[-1] != 4:
+        raise InputError(f"{name}: got an array of shape {q.shape}, expected (..., 4)")
+    off = np.abs(np.linalg.norm(q, axis=-1) - 1)
+    if np.any(off > UNIT_TOLERANCE):
+        raise InputError(
+            f"{name}: got a norm {off.max():g} off 1, expected unit quaternions (x, y, z, w) to "
+            f"{UNIT_TOLERANCE:g}"
+        )
+    return q
+
+
 def principal_moments(name: str, value: npt.ArrayLike) -> Array:
     """``value`` (3,) [kg m²]: each positive, none above the sum of the other two.
 

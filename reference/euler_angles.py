@@ -15,7 +15,7 @@ Continua*, ch. 5 (z-y-z).
 import numpy as np
 import numpy.typing as npt
 
-from .checked import UNIT_TOLERANCE, Array, finite
+from .checked import Array, finite, unit_quaternions
 from .errors import InputError
 
 
@@ -113,13 +113,13 @@ def zyz_angles(q: npt.ArrayLike) -> Array:
     At β = 0 only α + γ, at β = π only α − γ is determined: there γ = 0.
     Raises InputError if a norm is off 1 by more than 1e-9. Source: `zyz_attitude`, solved.
     """
-    x, y, z, w = _unit(q)
+    x, y, z, w = np.moveaxis(unit_quaternions("q", q), -1, 0)
     return _solved(np.arctan2(-x, y), x, y, z, w)
 
 
 def zxz_angles(q: npt.ArrayLike) -> Array:
     """(φ, θ, ψ) of attitudes q (..., 4), in the ranges and with the limits of `zyz_angles`."""
-    x, y, z, w = _unit(q)
+    x, y, z, w = np.moveaxis(unit_quaternions("q", q), -1, 0)
     return _solved(np.arctan2(y, x), x, y, z, w)
 
 
@@ -154,16 +154,6 @@ def _parts(name: str, value: npt.ArrayLike) -> Array:
     if array.ndim == 0 or array.shape[-1] != 3:
         raise InputError(f"{name}: got an array of shape {array.shape}, expected (..., 3)")
     return np.moveaxis(array, -1, 0)
-
-
-def _unit(value: npt.ArrayLike) -> Array:
-    q = finite("q", value)
-    if q.ndim == 0 or q.shape[-1] != 4:
-        raise InputError(f"q: got an array of shape {q.shape}, expected (..., 4)")
-    off = np.abs(np.linalg.norm(q, axis=-1) - 1)
-    if np.any(off > UNIT_TOLERANCE):
-        raise InputError(f"q: got a norm {off.max():g} off 1, expected unit quaternions (x, y, z, w)")
-    return np.moveaxis(q, -1, 0)
 
 
 def _stack(*parts: Array) -> Array:

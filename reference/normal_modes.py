@@ -7,7 +7,7 @@ Source: Goldstein, *Classical Mechanics*, §§ 6.1–6.3; Landau & Lifshitz, *Me
 import numpy as np
 import numpy.typing as npt
 
-from .checked import Array, finite
+from .checked import Array, finite, times
 from .eigenpairs import Long, eigenpairs, energy_matrices
 from .errors import InputError
 
@@ -68,7 +68,7 @@ def motion(
     q0, v0 : (n,)
         Displacements and velocities at t = 0.
     t : (m,)
-        Times [s], of either sign.
+        Times [s], of either sign; a single number counts as one.
 
     Returns
     -------
@@ -84,12 +84,12 @@ def motion(
     masses, stiffness = energy_matrices(T, V)
     n = len(masses)
     start, speed = finite("q0", q0, (n,)), finite("v0", v0, (n,))
-    times = finite("t", t, (-1,)).astype(np.longdouble)[:, None]
+    now = times("t", t).astype(np.longdouble)[:, None]
     omega, A = _extended_modes(masses, stiffness)
     xi0, rate0 = start @ (masses @ A), speed @ (masses @ A)
     # Phases and sums stay in extended precision: ωt may be thousands of radians.
-    cos, sin = np.cos(omega * times), np.sin(omega * times)
-    drift = np.where(omega == 0, times, sin / np.where(omega == 0, 1, omega))
+    cos, sin = np.cos(omega * now), np.sin(omega * now)
+    drift = np.where(omega == 0, now, sin / np.where(omega == 0, 1, omega))
     q = (xi0 * cos + rate0 * drift) @ A.T
     v = (rate0 * cos - xi0 * omega * sin) @ A.T
     return q.astype(np.float64), v.astype(np.float64)

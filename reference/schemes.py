@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from .checked import Array, finite, positive
+from .checked import Array, finite, positive, times
 from .eigenpairs import Long, energy_matrices
 from .errors import InputError
 
@@ -164,7 +164,7 @@ def known_scheme(scheme: Scheme) -> None:
 
 def whole_steps(steps: npt.ArrayLike) -> npt.NDArray[np.int64]:
     """``steps`` (m,) as integers; raises InputError unless they are whole and from 0 to 2**53."""
-    count = finite("steps", steps, (-1,))
+    count = times("steps", steps)
     # Above 2**53 doubles skip whole numbers.
     if np.any(count != np.floor(count)) or np.any(count < 0) or np.any(count > 2**53):
         raise InputError(f"steps: got {count.tolist()}, expected whole numbers from 0 to 2**53")

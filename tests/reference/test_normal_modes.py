@@ -194,7 +194,7 @@ def test_bad_matrices_are_refused(T, V, says):
 
 def test_shapes_that_do_not_fit_are_refused():
     T, V = CASES["coupled masses"]
-    for q0, v0, t in (([1.0], [0.0, 0.0], [0.0]), ([1.0, 0.0], [0.0], [0.0]), ([1.0, 0], [0, 0], 0.0)):
+    for q0, v0, t in (([1.0], [0.0, 0.0], [0.0]), ([1.0, 0.0], [0.0], [0.0]), ([1.0, 0], [0, 0], [[0.0]])):
         with pytest.raises(InputError):
             motion(T, V, q0, v0, t)
     for eta in (1.0, [1.0, 2.0, 3.0]):

@@ -192,7 +192,7 @@ GOOD = {"T": T, "V": V, "q0": Q0, "v0": V0, "dt": 0.1, "steps": [1], "damping": 
         ("dt", 0.0),
         ("dt", -0.1),
         ("dt", np.nan),
-        ("steps", 3),
+        ("steps", [[3]]),
         ("steps", [1.5]),
         ("steps", [-1]),
         ("steps", [2.0**54]),
