@@ -5,5 +5,9 @@ class PoinsotError(Exception):
     """Root of every exception that Poinsot raises on purpose; its text is for people."""
 
 
+class UnavailableError(PoinsotError):
+    """An engine that is known but not installed here."""
+
+
 class InputError(PoinsotError, ValueError):
     """A value that was given is not allowed; the message says what was got and what is allowed."""

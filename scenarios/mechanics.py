@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from ..reference import quaternions
 from ..reference.checked import Array
 from .trajectory import Trajectory
 
@@ -53,9 +53,7 @@ def angular_momentum_world(scene: Scene, motion: Trajectory) -> Array:
     """Σ (r × m v + R I ω) about the world's origin, (n, 3) [kg m²/s], world axes."""
     orbital = np.cross(motion.position, masses(scene)[:, None] * motion.velocity)
     spin_body = spin_momentum_body(scene, motion)
-    turn = Rotation.from_quat(motion.quaternion.reshape(-1, 4))
-    spin = np.asarray(turn.apply(spin_body.reshape(-1, 3))).reshape(orbital.shape)
-    return np.asarray((orbital + spin).sum(axis=1))
+    return np.asarray((orbital + quaternions.rotated(motion.quaternion, spin_body)).sum(axis=1))
 
 
 def momentum_scale(scene: Scene, motion: Trajectory) -> float:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from ..reference import quaternions
 from ..reference.checked import Array
 from . import mechanics
 from .trajectory import Trajectory
@@ -44,11 +44,8 @@ def orientation() -> Observable:
     """Rotation vector from ``b``'s attitude to ``a``'s, per body; its length is the geodesic angle."""
 
     def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
-        n = len(a.t)
-        turn = Rotation.from_quat(b.quaternion.reshape(-1, 4)).inv() * Rotation.from_quat(
-            a.quaternion.reshape(-1, 4)
-        )
-        return np.asarray(turn.as_rotvec()).reshape(n, -1)
+        turn = quaternions.product(quaternions.conjugate(b.quaternion), a.quaternion)
+        return quaternions.rotation_vector(turn).reshape(len(a.t), -1)
 
     return Observable("orientation", "rad", "state", difference, lambda scene, b: 1.0)
 
@@ -81,14 +78,23 @@ def velocity() -> Observable:
 
 
 def rate(
-    name: str, unit: str, measure: Callable[[Scene, Trajectory], float], exact: Callable[[Scene], float]
+    name: str,
+    signal: Callable[[Scene, Trajectory], Array],
+    exact: Callable[[Scene], float],
 ) -> Observable:
-    """Return a number that ``measure`` fits to the motion, against its closed form ``exact``."""
+    """How fast the phase of a complex ``signal`` (n,) turns, against its closed form ``exact``.
+
+    The phase is followed relative to that of the truth, whose mean rate is ``exact``: what is
+    fitted is a small slowly growing angle, so neither the shape of the signal nor the spacing of
+    the samples limits it. A test of each scene holds the truth's own phase against ``exact``.
+    """
 
     def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
-        return np.array([[measure(scene, a) - exact(scene)]])
+        relative = np.unwrap(np.angle(signal(scene, a) * np.conj(signal(scene, b))))
+        centred = a.t - a.t.mean()
+        return np.array([[centred @ relative / (centred @ centred)]])
 
-    return Observable(name, unit, "rate", difference, lambda scene, b: abs(exact(scene)))
+    return Observable(name, "rad/s", "rate", difference, lambda scene, b: abs(exact(scene)))
 
 
 def _invariant(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from ..reference import quaternions
 from ..reference.checked import Array
 from .trajectory import Trajectory
 
@@ -33,7 +33,7 @@ def tip(title: str = "Tip of the symmetry axis e3") -> Picture:
     """Where the first body's e3 points, on the unit sphere in world axes."""
 
     def points(scene: Scene, motion: Trajectory) -> Array:
-        return np.asarray(Rotation.from_quat(motion.quaternion[:, 0]).apply([0.0, 0.0, 1.0]))
+        return quaternions.rotated(motion.quaternion[:, 0], np.array([0.0, 0.0, 1.0]))
 
     return Picture(title, ("x", "y", "z"), points)
 

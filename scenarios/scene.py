@@ -126,6 +126,12 @@ class Scene:
         exact = self.duration / self.samples / self.steps_per_sample(dt)
         return dt if abs(dt / exact - 1) < 1e-12 else exact
 
+    def ladder(self, order: int) -> tuple[float, ...]:
+        """Steps [s] over which to measure a scheme of this order: those of the nearest order there is."""
+        if not self.ladders:
+            return (self.dt,)
+        return self.ladders[min(self.ladders, key=lambda known: abs(known - order))]
+
     def slices(self) -> list[tuple[Body, Joint, slice, slice]]:
         """Each joint with its body and its places in ``q0`` and ``v0``."""
         result, q, v = [], 0, 0

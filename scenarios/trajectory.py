@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..reference import quaternions
 from ..reference.checked import Array
 from ..reference.errors import InputError
 
@@ -86,3 +87,16 @@ class Trajectory:
         )
         fine = np.logical_and.reduce([np.isfinite(a.reshape(n, -1)).all(axis=1) for a in arrays])
         return None if fine.all() else float(self.t[int(np.argmin(fine))])
+
+
+def about_fixed_point(t: Array, center_of_mass: Array, quaternion: Array, omega: Array) -> Trajectory:
+    """Motion of one body whose frame's origin stays at the world's, from its attitude.
+
+    ``center_of_mass`` (3,) [m] and ``omega`` (n, 3) [rad/s] in body axes, ``quaternion`` (n, 4).
+    """
+    position = quaternions.rotated(quaternion, center_of_mass)
+    velocity = quaternions.rotated(quaternion, np.cross(omega, center_of_mass))
+    none = np.empty((len(t), 0))
+    return Trajectory(
+        t, position[:, None], quaternion[:, None], velocity[:, None], omega[:, None], none, none
+    )

@@ -1,0 +1,132 @@
+"""Many cells, each in a child process with a time limit: one that dies takes no other with it."""
+
+import multiprocessing
+import os
+import re
+import signal
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import TimeoutError as TimeLimitError
+from concurrent.futures import as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pebble import ProcessExpired, ProcessPool
+
+from ..reference.errors import PoinsotError
+from ..scenarios.registry import scenes
+from . import log, registry
+from .simulate import simulate
+from .timing import Timing, timed
+
+
+@dataclass(frozen=True)
+class Request:
+    """One cell to run; ``engine`` is what ``registry.load`` takes, ``repeats`` how often it is run."""
+
+    scene: str
+    engine: str
+    scheme: str
+    dt: float
+    repeats: int = 1
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a request: the name of its log, or why there is none."""
+
+    request: Request
+    log: str | None = None
+    error: str = ""
+
+
+def run(
+    requests: Sequence[Request],
+    folder: Path,
+    workers: int,
+    time_limit: float,
+    progress: Callable[[Outcome], None] = lambda outcome: None,
+) -> list[Outcome]:
+    """Run every request, its log written into ``folder``; outcomes in the order of the requests.
+
+    ``time_limit`` [s] is for one cell. ``progress`` is told of each outcome as it comes.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    outcomes: dict[Request, Outcome] = {}
+    for request, result in _isolated(_logged, requests, (folder,), workers, time_limit):
+        failed = isinstance(result, str)
+        outcomes[request] = Outcome(request, error=result) if failed else Outcome(request, log=result.name)
+        progress(outcomes[request])
+    return [outcomes[request] for request in requests]
+
+
+def time(
+    requests: Sequence[Request],
+    time_limit: float,
+    progress: Callable[[Request], None] = lambda request: None,
+) -> dict[Request, Timing | str]:
+    """Time every request, one after the other, in one process on one core: a timing or what went wrong."""
+    results: dict[Request, Timing | str] = {}
+    for request, result in _isolated(_timed, requests, (), 1, time_limit):
+        results[request] = result
+        progress(request)
+    return results
+
+
+def file_name(request: Request) -> str:
+    """Name of a cell's log: readable, and safe on any file system."""
+    text = f"{request.scene}-{request.engine}-{request.scheme}-{request.dt:.9g}"
+    return re.sub(r"[^A-Za-z0-9.+-]+", "_", text) + ".mcap"
+
+
+def _isolated(
+    work: Callable[..., Any],
+    requests: Iterable[Request],
+    arguments: tuple[Any, ...],
+    workers: int,
+    time_limit: float,
+) -> Iterable[tuple[Request, Any]]:
+    """Results of ``work(request, *arguments)``, or a sentence for each that failed, as they come."""
+    context = multiprocessing.get_context("spawn")
+    with ProcessPool(max_workers=workers, context=context) as pool:
+        futures = [
+            (pool.schedule(work, (request, *arguments), timeout=time_limit), request) for request in requests
+        ]
+        origin = dict(futures)
+        for future in as_completed(origin):
+            request = origin[future]
+            try:
+                yield request, future.result()
+            except TimeLimitError:
+                yield request, f"took longer than the time limit of {time_limit:g} s and was stopped"
+            except ProcessExpired as death:
+                yield request, f"its process died ({_cause(death.exitcode)})"
+            except PoinsotError as error:
+                yield request, str(error)
+            except Exception as error:  # an engine may raise anything; it must not end the run
+                yield request, f"{type(error).__name__}: {error}"
+
+
+def _logged(request: Request, folder: Path) -> Path:
+    engine = registry.load(request.engine)
+    scene, scheme = scenes()[request.scene], registry.scheme_of(engine, request.scheme)
+    trajectory, model = simulate(scene, engine, scheme, request.dt, request.repeats)
+    path = folder / file_name(request)
+    log.write(path, scene, trajectory, model)
+    return path
+
+
+def _timed(request: Request) -> Timing:
+    engine = registry.load(request.engine)
+    return timed(scenes()[request.scene], engine, registry.scheme_of(engine, request.scheme), request.dt)
+
+
+def _cause(exit_code: int) -> str:
+    if exit_code < 0:
+        return f"signal {-exit_code}, {signal.Signals(-exit_code).name}"
+    return f"exit code {exit_code}"
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

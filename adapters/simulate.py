@@ -1,0 +1,97 @@
+"""One cell: a scene built in an engine, stepped, and looked at."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..reference.errors import InputError
+from ..scenarios.scene import FEATURES, Scene
+from ..scenarios.trajectory import Provenance, Trajectory
+from .engine import Engine, EngineError, Scheme
+
+
+class UnsupportedError(InputError):
+    """An engine or a scheme lacks a feature that the scene needs; the message says which."""
+
+
+def unsupported(scene: Scene, engine: type[Engine], scheme: Scheme) -> str:
+    """Why this scheme cannot run this scene, or an empty text if it can."""
+    lacking = sorted(scene.features - engine.features)
+    if lacking:
+        return f"{engine.name} has no {', no '.join(FEATURES[name] for name in lacking)}"
+    reasons = dict.fromkeys(scheme.lacks[name] for name in sorted(scene.features) if name in scheme.lacks)
+    return "; ".join(reasons)
+
+
+def simulate(
+    scene: Scene, engine: type[Engine], scheme: Scheme, dt: float, repeats: int = 1
+) -> tuple[Trajectory, Mapping[str, str]]:
+    """Run one cell in this process: its trajectory with provenance, and the model text by file name.
+
+    The cell is built and run ``repeats`` times; the hashes of all of them go into the provenance.
+    ``dt`` [s] is rounded to a whole number of steps between samples. Raises ``UnsupportedError``
+    if the engine lacks a feature, ``EngineError`` if it breaks down, ``InputError`` for a step out
+    of range.
+    """
+    reason = unsupported(scene, engine, scheme)
+    if reason:
+        raise UnsupportedError(f"scene {scene.full_name} with {engine.name} {scheme.name}: {reason}")
+    dt = scene.whole_step(dt)
+    machine = engine()
+    try:
+        machine.build(scene, scheme, dt)
+        setup, model = machine.readback(), machine.model_text()
+        first = _record(machine, scene, dt)
+        digests = [digest(first)]
+        for _ in range(repeats - 1):
+            machine.build(scene, scheme, dt)
+            digests.append(digest(_record(machine, scene, dt)))
+    finally:
+        machine.close()
+    provenance = Provenance(
+        scene=scene.full_name,
+        engine=engine.name,
+        engine_version=engine.version(),
+        scheme=scheme.name,
+        order=scheme.order,
+        twin=scheme.twin,
+        dt=dt,
+        steps=scene.samples * scene.steps_per_sample(dt),
+        setup=_plain(setup.values),
+        probed=tuple(setup.probed),
+        digests=tuple(digests),
+        settings=dict(engine.settings),
+    )
+    return replace(first, provenance=provenance), dict([model])
+
+
+def digest(motion: Trajectory) -> str:
+    """Hash of every bit of the states."""
+    hasher = hashlib.sha256()
+    for array in (motion.position, motion.quaternion, motion.velocity, motion.omega):
+        hasher.update(np.ascontiguousarray(array).tobytes())
+    hasher.update(np.ascontiguousarray(motion.joint_position).tobytes())
+    hasher.update(np.ascontiguousarray(motion.joint_velocity).tobytes())
+    return hasher.hexdigest()
+
+
+def _record(machine: Engine, scene: Scene, dt: float) -> Trajectory:
+    stride = scene.steps_per_sample(dt)
+    states = [machine.state()]
+    for _ in range(scene.samples):
+        machine.step(stride)
+        states.append(machine.state())
+    t = np.arange(scene.samples + 1) * stride * dt
+    motion = Trajectory(t, *(np.stack(column) for column in zip(*states, strict=True)))
+    broken = motion.first_not_finite()
+    if broken is not None:
+        raise EngineError(f"the state is not finite at t = {broken:g} s")
+    return motion
+
+
+def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Numbers and lists of them in place of arrays, so that the log gives back what went in."""
+    return {name: np.asarray(value).tolist() for name, value in values.items()}

@@ -1,0 +1,75 @@
+"""How long an engine steps, with nothing else inside the clock."""
+
+import gc
+import os
+import statistics
+from dataclasses import dataclass
+from time import perf_counter
+
+from ..scenarios.scene import Scene
+from .engine import Engine, Scheme
+
+#: Repeats of one cell, and how many are enough where a single one takes longer than ``LONG`` [s].
+REPEATS, FEW, LONG = 10, 3, 2.0
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Wall time [s] of all steps of one cell, over its repeats."""
+
+    steps: int
+    seconds: tuple[float, ...]
+
+    @property
+    def least(self) -> float:
+        """The fastest repeat: what the engine takes when nothing disturbs it."""
+        return min(self.seconds)
+
+    @property
+    def median(self) -> float:
+        """The middle repeat."""
+        return statistics.median(self.seconds)
+
+    def as_row(self) -> dict[str, float | int]:
+        """The part of a work-precision row that speaks of time."""
+        return {"seconds_min": self.least, "seconds_median": self.median, "repeats": len(self.seconds)}
+
+
+def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timing:
+    """Time all steps of a cell, from its start each time, without looking at or logging a sample.
+
+    Pinned to one core where the system allows it, garbage collection off.
+    """
+    pin()
+    steps = scene.samples * scene.steps_per_sample(dt)
+    machine = engine()
+    try:
+        warm_up = _once(machine, scene, scheme, dt, steps)
+        repeats = FEW if warm_up > LONG else REPEATS
+        return Timing(steps, tuple(_once(machine, scene, scheme, dt, steps) for _ in range(repeats)))
+    finally:
+        machine.close()
+
+
+def pin() -> bool:
+    """Keep this process on one core, the last it may use; tells whether the system allowed it."""
+    if not hasattr(os, "sched_setaffinity"):
+        return False
+    try:
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+    except OSError:
+        return False
+    return True
+
+
+def _once(machine: Engine, scene: Scene, scheme: Scheme, dt: float, steps: int) -> float:
+    machine.build(scene, scheme, scene.whole_step(dt))
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        start = perf_counter()
+        machine.step(steps)
+        return perf_counter() - start
+    finally:
+        if enabled:
+            gc.enable()

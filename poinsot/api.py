@@ -1,0 +1,93 @@
+"""The public functions: what users' scripts call."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from .adapters import registry
+from .adapters.engine import Engine
+from .adapters.simulate import simulate as _simulate
+from .adapters.simulate import unsupported
+from .adapters.timing import timed
+from .reports import judge as _judge
+from .reports.cell import Cell
+from .reports.results import precision_rows
+from .reports.verdict import Verdict
+from .scenarios.registry import scenes as _scenes
+from .scenarios.registry import select
+from .scenarios.scene import Scene
+from .scenarios.trajectory import Trajectory
+
+
+def scenes() -> dict[str, Scene]:
+    """Every scene by its full name, ``scene[variant]``."""
+    return dict(_scenes())
+
+
+def engines() -> dict[str, type[Engine] | str]:
+    """Every engine by name, or the reason why it is unavailable."""
+    return registry.engines()
+
+
+def simulate(
+    scene: Scene | str, engine: type[Engine] | str, scheme: str | None = None, dt: float | None = None
+) -> Trajectory:
+    """Run ``scene`` in ``engine``, in this process.
+
+    ``scene`` is a ``Scene`` or a full name, ``engine`` a class or what ``poinsot run --engine``
+    takes; ``scheme`` is the engine's first unless named, ``dt`` [s] the scene's own, rounded to
+    whole steps between samples. The run is made twice, so that determinism can be judged.
+
+    Raises ``InputError`` for a name or a step that cannot be, ``UnsupportedError`` where the engine
+    lacks a feature, ``UnavailableError`` where it is not installed, ``EngineError`` if it breaks down.
+    """
+    scene, engine = _scene(scene), _engine(engine)
+    step = scene.dt if dt is None else dt
+    trajectory, _ = _simulate(scene, engine, registry.scheme_of(engine, scheme), step, repeats=2)
+    return trajectory
+
+
+def judge(
+    trajectories: Iterable[Trajectory] | Trajectory, scenes: Mapping[str, Scene] | None = None
+) -> list[Verdict]:
+    """Every verdict that one or many trajectories allow: order and twin need several.
+
+    ``scenes`` are Poinsot's own unless given. Raises ``InputError`` for a trajectory of unknown origin.
+    """
+    many = [trajectories] if isinstance(trajectories, Trajectory) else trajectories
+    return _judge.judge(many, scenes)
+
+
+def work_precision(
+    scene: Scene | str, engines: Sequence[type[Engine] | str] | None = None
+) -> list[dict[str, Any]]:
+    """Error against run time of one scene: rows as in ``results.json``, over each scheme's ladder of steps.
+
+    ``engines`` are all that are installed unless given; a scheme that cannot run the scene has no
+    rows. Takes as long as ten runs of every cell, one after the other, on one core.
+    """
+    scene = _scene(scene)
+    installed = [engine for engine in registry.engines().values() if not isinstance(engine, str)]
+    rows = []
+    for engine in installed if engines is None else [_engine(engine) for engine in engines]:
+        for scheme in engine.schemes:
+            if not unsupported(scene, engine, scheme):
+                for dt in scene.ladder(scheme.order):
+                    rows += _rows(scene, engine, scheme.name, dt)
+    return rows
+
+
+def _rows(scene: Scene, engine: type[Engine], scheme_name: str, dt: float) -> list[dict[str, Any]]:
+    scheme = registry.scheme_of(engine, scheme_name)
+    trajectory, _ = _simulate(scene, engine, scheme, dt)
+    timing = timed(scene, engine, scheme, dt)
+    cell = Cell.of(trajectory, {scene.full_name: scene})
+    p = cell.provenance
+    return precision_rows([cell], {(p.scene, p.engine, p.scheme, p.dt): timing.as_row()})
+
+
+def _scene(scene: Scene | str) -> Scene:
+    return scene if isinstance(scene, Scene) else select([scene])[0]
+
+
+def _engine(engine: type[Engine] | str) -> type[Engine]:
+    return registry.load(engine) if isinstance(engine, str) else engine

@@ -1,0 +1,145 @@
+"""The command line: ``poinsot run | list | report | doctor``."""
+
+import shlex
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import App, CycloptsError, Parameter
+
+from . import __version__
+from .reference.errors import InputError, PoinsotError, UnavailableError
+
+app = App(
+    name="poinsot",
+    help="Cross-validate rigid-body physics engines against exact solutions and against each other.",
+    version=__version__,
+)
+
+Names = Annotated[list[str] | None, Parameter(negative="", consume_multiple=False)]
+
+
+@app.command
+def run(
+    *scene: str,
+    engine: Names = None,
+    scheme: Names = None,
+    dt: Annotated[list[float] | None, Parameter(negative="", consume_multiple=False)] = None,
+    out: Path | None = None,
+    workers: int | None = None,
+    time_limit: float = 300.0,
+    timing: bool = True,
+) -> int:
+    """Run scenes in engines, log and judge them, and write a report.
+
+    Parameters
+    ----------
+    scene
+        Scenes, as `name` or `name[variant]`; all of them if none is named.
+    engine
+        An engine's name, `package.module:Class` or `path/to/file.py:Class`; may be repeated.
+        All that are installed if none is named.
+    scheme
+        A scheme's name; may be repeated.
+    dt
+        A step [s] in place of each scheme's ladder; may be repeated.
+    out
+        Folder for the report and the logs, new or empty; otherwise a new dated one in poinsot-runs/.
+    workers
+        How many processes simulate at once; as many as there are cores if not said.
+    time_limit
+        Longest time [s] that one cell may take.
+    timing
+        Whether to time the engines after they have been simulated.
+    """
+    from .adapters.runner import cores
+    from .main_job import output_folder
+    from .main_job import run as run_all
+    from .plan import plan
+    from .progress import bar
+    from .reports.results import exit_code
+    from .scenarios.registry import select
+
+    if workers is not None and workers < 1:
+        raise InputError(f"--workers: got {workers}, expected at least 1")
+    if not time_limit > 0:
+        raise InputError(f"--time-limit: got {time_limit}, expected a number of seconds above 0")
+    laid = plan(select(list(scene)), engine or [], scheme or [], dt or [])
+    folder = output_folder(out)
+    command = shlex.join(["poinsot", *_arguments()])
+    with bar() as progress:
+        found = run_all(laid, folder, command, workers or cores(), time_limit, timing, progress)
+    _show(found, folder)
+    return exit_code(found)
+
+
+@app.command
+def report(folder: Path) -> int:
+    """Judge the logs of an earlier run again and write its report anew; no engine is needed.
+
+    Parameters
+    ----------
+    folder
+        What `poinsot run` wrote.
+    """
+    from .main_job import again
+    from .reports.results import exit_code
+
+    found = again(folder)
+    _show(found, folder)
+    return exit_code(found)
+
+
+@app.command(name="list")
+def list_(*, json: Annotated[bool, Parameter(negative="")] = False) -> int:
+    """List every scene and every engine with its schemes.
+
+    Parameters
+    ----------
+    json
+        Print it as JSON.
+    """
+    from . import listing
+
+    print(listing.as_json() if json else listing.as_text())  # noqa: T201 (this is what the command is for)
+    return 0
+
+
+@app.command
+def doctor() -> int:
+    """Tell versions, which engines are here, and whether each passes a self-test."""
+    from .doctor import examine
+
+    text, sound = examine()
+    print(text)  # noqa: T201 (this is what the command is for)
+    return 0 if sound else 3
+
+
+def main(tokens: Sequence[str] | None = None) -> int:
+    """Run the command line; the exit code is 0, 1, 2, 3, 4 or 130 as the README says."""
+    try:
+        return int(app(tokens, exit_on_error=False, print_error=False, result_action="return_value") or 0)
+    except KeyboardInterrupt:
+        return _complain("interrupted", 130)
+    except (CycloptsError, InputError) as error:
+        return _complain(str(error), 2)
+    except UnavailableError as error:
+        return _complain(str(error), 3)
+    except PoinsotError as error:
+        return _complain(str(error), 4)
+
+
+def _complain(text: str, code: int) -> int:
+    sys.stderr.write(f"poinsot: {' '.join(text.split())}\n")
+    return code
+
+
+def _arguments() -> list[str]:
+    return sys.argv[1:]
+
+
+def _show(found: dict[str, Any], folder: Path) -> None:
+    from .listing import outcome
+
+    print(outcome(found, folder))  # noqa: T201 (the outcome of a run)

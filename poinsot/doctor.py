@@ -1,0 +1,38 @@
+"""A look at this installation: versions, engines, and a self-test of each."""
+
+import platform
+import tempfile
+from pathlib import Path
+
+from .adapters import registry, runner
+from .adapters.environment import environment
+from .adapters.runner import Request
+
+#: For which Pythons an engine's authors publish wheels; elsewhere pip has nothing to install.
+WHEELS = {
+    "mujoco": "CPython 3.10 and later on Linux, macOS and Windows",
+    "pinocchio": "CPython 3.9 and later on Linux and macOS (the distribution is called pin)",
+    "pybullet": "CPython 3.10 and 3.11 on Linux",
+}
+SELF_TEST = "free_symmetric_top[oblate]"
+
+
+def examine() -> tuple[str, bool]:
+    """A text for people, and whether every installed engine passed its self-test.
+
+    The self-test runs a free top for its whole duration at a coarse step, in a process of its own.
+    """
+    lines = [f"{name}: {value}" for name, value in environment().items()]
+    found = registry.engines()
+    tests = {name: Request(SELF_TEST, name, engine.schemes[0].name, 2e-3) for name, engine in found.items()
+             if not isinstance(engine, str)}  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder:
+        outcomes = runner.run(list(tests.values()), Path(folder), workers=1, time_limit=60.0)
+    errors = {outcome.request.engine: outcome.error for outcome in outcomes}
+    for name, engine in found.items():
+        if isinstance(engine, str):
+            lines.append(f"{name}: unavailable: {engine}; wheels exist for {WHEELS.get(name, 'unknown systems')}, "
+                         f"this is CPython {platform.python_version()} on {platform.system()}")  # fmt: skip
+        else:
+            lines.append(f"{name} {engine.version()}: {errors[name] or 'self-test passed'}")
+    return "\n".join(lines), not any(errors.values())

@@ -1,0 +1,191 @@
+"""The main job: scenes in engines, logs, verdicts, a report."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+from time import perf_counter
+from typing import Any, Protocol
+
+from .adapters import log, runner
+from .adapters.environment import environment
+from .adapters.runner import Request
+from .adapters.timing import Timing
+from .plan import Plan
+from .reference.errors import InputError
+from .reports import results, truth
+from .reports.cell import Cell
+from .reports.judge import judge
+from .reports.results import CellRecord, Key
+from .reports.verdict import Status
+from .scenarios.registry import scenes as all_scenes
+from .scenarios.trajectory import Trajectory
+
+LOGS = "logs"
+
+
+class Progress(Protocol):
+    """Told how far a run has come."""
+
+    def __call__(self, phase: str, done: int, of: int) -> None:
+        """``done`` of ``of`` cells of ``phase`` are behind us."""
+        ...
+
+
+def output_folder(out: Path | None) -> Path:
+    """Make the folder a run goes into: ``out``, new or empty, or a new dated one.
+
+    Raises ``InputError`` if it holds something already or cannot be made or written.
+    """
+    folder = out or Path("poinsot-runs") / f"{datetime.now():%Y-%m-%d_%H-%M-%S}"
+    try:
+        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+            raise InputError(f"--out: got {folder}, which is not empty; expected a new or an empty folder")
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / LOGS).mkdir()
+    except OSError as error:
+        raise InputError(f"--out: got {folder}, which cannot be written ({error.strerror})") from error
+    return folder
+
+
+def run(
+    laid: Plan,
+    folder: Path,
+    command: str,
+    workers: int,
+    time_limit: float,
+    with_timing: bool,
+    progress: Progress,
+) -> dict[str, Any]:
+    """Run every cell of the plan, then judge and report it; the results as written to ``folder``."""
+    started, clock = datetime.now(UTC), perf_counter()
+    records = _simulated(laid, folder, workers, time_limit, progress)
+    timings = _timed(laid, records, time_limit, progress) if with_timing else {}
+    seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
+    untimed = [
+        f"{' '.join(map(str, key))}: not timed, {why}" for key, why in timings.items() if isinstance(why, str)
+    ]
+    facts = environment() | {
+        "command": command,
+        "started": started.isoformat(timespec="seconds"),
+        "workers": workers,
+        "seconds": round(perf_counter() - clock, 1),
+    }
+    return report(folder, records, seconds, facts, [*laid.notes, *untimed])
+
+
+def report(
+    folder: Path,
+    records: Sequence[CellRecord],
+    seconds: Mapping[Key, Mapping[str, Any]],
+    facts: Mapping[str, Any],
+    notes: Sequence[str],
+) -> dict[str, Any]:
+    """Judge the logs of ``folder`` and write every page; needs no engine.
+
+    Raises ``CorruptLog`` for a log that is not what was written.
+    """
+    from .reports import pages  # plotly and jinja2 load only when there is something to show
+
+    known = all_scenes()
+    motions = {record.key: _read(folder, record) for record in records if record.log}
+    cells = [Cell.of(motion, known) for motion in motions.values()]
+    silent = dict.fromkeys(
+        f"{cell.provenance.engine} {cell.provenance.scheme} in {cell.scene.name}: no error constant is recorded for "
+        f"{', '.join(missing)}; judged by order and limit alone."
+        for cell in cells
+        if (missing := truth.without_constant(cell))
+    )
+    found = results.results(
+        records,
+        judge(motions.values()),
+        results.precision_rows(cells, seconds),
+        known,
+        facts,
+        list(dict.fromkeys([*notes, *silent])),
+    )
+    pages.write(folder, found, cells)
+    return found
+
+
+def again(folder: Path) -> dict[str, Any]:
+    """Judge and report the logs of an earlier run once more.
+
+    What left no log, and the run times, are taken from its ``results.json``. Raises ``InputError``
+    if there is no run in ``folder``, ``CorruptLog`` or ``ResultsError`` if it is damaged.
+    """
+    logs = sorted((folder / LOGS).glob("*.mcap")) if folder.is_dir() else []
+    earlier = folder / "results.json"
+    if not logs and not earlier.is_file():
+        raise InputError(
+            f"report: got {folder}, which holds no run; expected a folder that `poinsot run` wrote"
+        )
+    if earlier.is_file():
+        found = results.read(earlier)
+        return report(
+            folder, results.records_of(found), results.timings_of(found), found["environment"], found["notes"]
+        )
+    records = [_record_of(path) for path in logs]
+    return report(folder, records, {}, environment(), ["There was no results.json: run times are not known."])
+
+
+def _simulated(
+    laid: Plan, folder: Path, workers: int, time_limit: float, progress: Progress
+) -> list[CellRecord]:
+    done = 0
+
+    def count(outcome: runner.Outcome) -> None:
+        nonlocal done
+        done += 1
+        progress("simulating", done, len(laid.requests))
+
+    # The longest first: no worker is left with one long cell while the other has nothing to do.
+    longest_first = sorted(laid.requests.values(), key=lambda request: request.dt)
+    outcomes = {o.request: o for o in runner.run(longest_first, folder / LOGS, workers, time_limit, count)}
+    return [_with_outcome(record, laid, outcomes) for record in laid.records]
+
+
+def _with_outcome(record: CellRecord, laid: Plan, outcomes: Mapping[Request, runner.Outcome]) -> CellRecord:
+    if record.key not in laid.requests:
+        return record
+    outcome = outcomes[laid.requests[record.key]]
+    if outcome.log is None:
+        return replace(record, status=Status.ERROR, message=outcome.error)
+    return replace(record, log=f"{LOGS}/{outcome.log}")
+
+
+def _timed(
+    laid: Plan, records: Sequence[CellRecord], time_limit: float, progress: Progress
+) -> dict[Key, Timing | str]:
+    """Time the cells that ran, of one variant of each scene: variants differ only in where they start."""
+    first: dict[str, str] = {}
+    for record in records:
+        first.setdefault(all_scenes()[record.scene].name, record.scene)
+    sound = [record for record in records if record.log and record.scene in first.values()]
+    requests = {laid.requests[record.key]: record.key for record in sound}
+    done = 0
+
+    def count(request: Request) -> None:
+        nonlocal done
+        done += 1
+        progress("timing", done, len(requests))
+
+    return {
+        requests[request]: timing
+        for request, timing in runner.time(list(requests), time_limit, count).items()
+    }
+
+
+def _read(folder: Path, record: CellRecord) -> Trajectory:
+    return log.read(folder / str(record.log)).trajectory
+
+
+def _record_of(path: Path) -> CellRecord:
+    provenance = log.read(path).trajectory.provenance
+    if provenance is None:
+        raise InputError(f"{path.name}: got a log without provenance, expected one that `poinsot run` wrote")
+    p = provenance
+    return CellRecord(
+        p.scene, p.engine, p.engine_version, p.scheme, p.twin, p.order, p.dt, p.steps,
+        log=f"{LOGS}/{path.name}", settings=p.settings,
+    )  # fmt: skip

@@ -1,0 +1,112 @@
+"""Which cells a run consists of, and which it must leave out, with the reason."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+from .adapters import registry
+from .adapters.engine import Engine, Scheme
+from .adapters.runner import Request
+from .adapters.simulate import unsupported
+from .reference.errors import InputError
+from .reference.spelling import nearest
+from .reports.results import CellRecord
+from .reports.verdict import Status
+from .scenarios.scene import Scene
+
+#: How often a cell at the scene's own step is run, so that its determinism can be judged.
+REPEATS = 2
+
+
+@dataclass
+class Plan:
+    """Cells in the order of the report; those with a request will be run, the others cannot be."""
+
+    records: list[CellRecord] = field(default_factory=list)
+    requests: dict[tuple[str, str, str, float], Request] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+
+def plan(
+    scenes: Sequence[Scene], engines: Sequence[str], schemes: Sequence[str], steps: Sequence[float]
+) -> Plan:
+    """Lay out scenes × engines × schemes × steps.
+
+    No engines means all that Poinsot knows, no schemes all of theirs, no steps each scheme's ladder
+    and the scene's own step. Raises ``InputError`` for a scheme that no engine has and for a step
+    that cannot be, ``UnavailableError`` for an engine that was named and is not installed.
+    """
+    found, laid = _engines(engines), Plan()
+    loaded = {spec: engine for spec, engine in found.items() if not isinstance(engine, str)}
+    _check_schemes(schemes, loaded)
+    for scene in scenes:
+        for spec, engine in found.items():
+            if isinstance(engine, str):
+                laid.records.append(_left_out(scene, spec, Status.UNAVAILABLE, engine))
+                continue
+            for scheme in engine.schemes:
+                if not schemes or scheme.name in schemes:
+                    _add(laid, scene, spec, engine, scheme, steps)
+    if steps:
+        laid.notes.append("Only the steps asked for were run; order needs a ladder of at least five.")
+    return laid
+
+
+def _engines(specs: Sequence[str]) -> dict[str, type[Engine] | str]:
+    """Each engine asked for, or all there are; one that was named must be installed."""
+    if not specs:
+        return registry.engines()
+    return {spec: registry.load(spec) for spec in specs}
+
+
+def _check_schemes(schemes: Sequence[str], engines: dict[str, type[Engine]]) -> None:
+    valid = list(dict.fromkeys(scheme.name for engine in engines.values() for scheme in engine.schemes))
+    for name in schemes:
+        if name not in valid:
+            raise InputError(f"scheme: got {name!r}; {nearest(name, valid)}")
+
+
+def _add(
+    laid: Plan, scene: Scene, spec: str, engine: type[Engine], scheme: Scheme, steps: Sequence[float]
+) -> None:
+    reason = unsupported(scene, engine, scheme)
+    if reason:
+        laid.records.append(
+            replace(
+                _left_out(scene, engine.name, Status.UNSUPPORTED, reason),
+                engine_version=engine.version(),
+                scheme=scheme.name,
+                twin=scheme.twin,
+                order=scheme.order,
+            )
+        )
+        return
+    for asked, dt in _steps(scene, scheme, steps):
+        if dt != asked:
+            laid.notes.append(
+                f"{scene.full_name}: dt {asked:g} s rounded to {dt:g} s, whole steps between samples."
+            )
+        repeats = REPEATS if steps or dt == scene.whole_step(scene.dt) else 1
+        record = CellRecord(
+            scene=scene.full_name,
+            engine=engine.name,
+            engine_version=engine.version(),
+            scheme=scheme.name,
+            twin=scheme.twin,
+            order=scheme.order,
+            dt=dt,
+            steps=scene.samples * scene.steps_per_sample(dt),
+            settings=dict(engine.settings),
+        )
+        laid.records.append(record)
+        laid.requests[record.key] = Request(scene.full_name, spec, scheme.name, dt, repeats)
+
+
+def _steps(scene: Scene, scheme: Scheme, steps: Sequence[float]) -> Iterator[tuple[float, float]]:
+    """Each step asked for with the one it is rounded to, from the coarsest, none twice."""
+    asked = {scene.whole_step(dt): dt for dt in (steps or (*scene.ladder(scheme.order), scene.dt))}
+    for dt in sorted(asked, reverse=True):
+        yield asked[dt], dt
+
+
+def _left_out(scene: Scene, engine: str, status: Status, reason: str) -> CellRecord:
+    return CellRecord(scene.full_name, engine, "", "", "", 0, scene.dt, 0, status=status, message=reason)

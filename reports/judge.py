@@ -1,0 +1,45 @@
+"""The comparator: trajectories in, verdicts out, with no engine in sight."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+
+from ..scenarios.registry import scenes as all_scenes
+from ..scenarios.scene import Scene
+from ..scenarios.trajectory import Trajectory
+from . import order, setup, truth, twin
+from .cell import Cell
+from .verdict import Status, Verdict
+
+
+def judge(trajectories: Iterable[Trajectory], scenes: Mapping[str, Scene] | None = None) -> list[Verdict]:
+    """Every verdict that these trajectories allow, in their order.
+
+    One trajectory is held against the truth, its invariants, its setup and itself; order needs
+    several steps of one scheme, twin several engines at one step. ``scenes`` are those of Poinsot
+    unless given. Raises ``InputError`` for a trajectory of unknown origin.
+    """
+    known = dict(all_scenes() if scenes is None else scenes)
+    cells = [Cell.of(trajectory, known) for trajectory in trajectories]
+    broken = [verdict for cell in cells for verdict in _finite(cell)]
+    sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
+    alone = [v for cell in sound for v in (*truth.check(cell), *setup.check(cell), *setup.determinism(cell))]
+    ladders = _grouped(sound, lambda p: (p.scene, p.engine, p.engine_version, p.scheme))
+    twins = _grouped([c for c in sound if c.provenance.twin], lambda p: (p.scene, p.dt, p.twin))
+    together = [v for group in ladders for v in order.check(group)] + [
+        v for group in twins for v in twin.check(group)
+    ]
+    return broken + alone + together
+
+
+def _finite(cell: Cell) -> list[Verdict]:
+    since = cell.trajectory.first_not_finite()
+    if since is None:
+        return []
+    return [cell.verdict("truth", "state", Status.ERROR, f"not finite from t = {since:g} s on", at=since)]
+
+
+def _grouped(cells, key):  # type: ignore[no-untyped-def]
+    groups = defaultdict(list)
+    for cell in cells:
+        groups[key(cell.provenance)].append(cell)
+    return list(groups.values())

@@ -1,0 +1,104 @@
+"""Order of convergence over a ladder of steps, and the limit at which the ladder arrives."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..reference.checked import Array
+from ..scenarios.observables import Observable
+from .cell import Cell
+from .verdict import Status, Verdict
+
+#: Fewest steps that make a ladder.
+STEPS = 5
+#: How far a fitted order may be from the declared one: less than half of what tells two apart.
+TOLERANCE = 0.25
+#: Errors this many times above round-off are truncation.
+ABOVE = 20.0
+
+
+class Fit(NamedTuple):
+    """A fitted order, its standard error, and how many steps it rests on."""
+
+    order: float
+    uncertainty: float
+    steps: int
+
+
+def check(ladder: Sequence[Cell]) -> list[Verdict]:
+    """Order and limit of every state observable, from cells that differ in their step alone."""
+    cells = sorted(ladder, key=lambda cell: -cell.provenance.dt)
+    if len(cells) < STEPS:
+        return []
+    states = [o for o in cells[0].scene.observables if o.kind == "state"]
+    return [verdict for o in states for verdict in (_order(cells, o), _limit(cells, o))]
+
+
+def fit(dts: Array, errors: Array) -> Fit:
+    """Slope of log error over log dt by least squares, with its standard error."""
+    x, y = np.log(dts), np.log(errors)
+    x = x - x.mean()
+    slope = float(x @ y / (x @ x))
+    residual = y - y.mean() - slope * x
+    spread = float(np.sqrt(residual @ residual / max(1, len(x) - 2) / (x @ x)))
+    return Fit(slope, spread, len(x))
+
+
+def _order(cells: Sequence[Cell], observable: Observable) -> Verdict:
+    errors = np.array([cell.error(observable) for cell in cells])
+    dts = np.array([cell.provenance.dt for cell in cells])
+    floors = np.array([cell.round_off(observable) for cell in cells])
+    finest, declared = cells[-1], cells[0].provenance.order
+    if np.all(errors <= floors):
+        return finest.verdict(
+            "order", observable.name, Status.PASS,
+            f"exact to round-off at all {len(cells)} steps: there is no order to measure",
+        )  # fmt: skip
+    clear = errors > ABOVE * floors
+    if clear.sum() < 3:
+        return finest.verdict(
+            "order", observable.name, Status.FAIL,
+            f"only {clear.sum()} of {len(cells)} steps have an error clear of round-off; at least 3 are needed",
+        )  # fmt: skip
+    found = fit(dts[clear], errors[clear])
+    status = Status.PASS if abs(found.order - declared) <= TOLERANCE else Status.FAIL
+    return finest.verdict(
+        "order", observable.name, status,
+        f"fitted order {found.order:.3f} ± {found.uncertainty:.3f} over {found.steps} steps from {dts[0]:g} s to "
+        f"{dts[-1]:g} s, declared {declared}",
+        abs(found.order - declared), TOLERANCE, "1",
+    )  # fmt: skip
+
+
+def _limit(cells: Sequence[Cell], observable: Observable) -> Verdict:
+    """Richardson's limit: signed errors extrapolated to a step of zero."""
+    finest, order = cells[-1], cells[0].provenance.order
+    dts = [cell.provenance.dt for cell in cells]
+    differences = [observable.difference(c.scene, c.trajectory, c.truth) for c in cells]
+    limit, previous = extrapolated(dts, differences, order)
+    noise = max(cell.round_off(observable) for cell in cells)
+    # What the last step of the extrapolation still changed bounds what the next one would.
+    last_change = float(np.max(np.linalg.norm(limit - previous, axis=1)))
+    raw = finest.error(observable)
+    allowed = min(last_change, raw) + 2 * noise
+    return finest.compared(
+        "truth", observable, np.linalg.norm(limit, axis=1), allowed,
+        f"distance of the ladder's limit at dt = 0 from the truth; the finest step alone is at {raw:.2e}",
+        name=f"{observable.name}, limit",
+    )  # fmt: skip
+
+
+def extrapolated(dts: Sequence[float], values: Sequence[Array], order: int) -> tuple[Array, Array]:
+    """Limit at dt = 0 of values with an error Σ c_k dt^k, k from ``order``, and the limit before it.
+
+    Steps from the coarsest to the finest; the second result leaves out the coarsest.
+    """
+    return _fitted(dts, values, order), _fitted(dts[1:], values[1:], order)
+
+
+def _fitted(dts: Sequence[float], values: Sequence[Array], order: int) -> Array:
+    scaled = np.asarray(dts) / dts[0]
+    powers = [np.ones_like(scaled), *(scaled ** (order + k) for k in range(len(dts) - 1))]
+    weights = np.linalg.solve(np.column_stack(powers).T, np.eye(len(dts))[0])
+    return np.asarray(np.tensordot(weights, np.asarray(values), axes=1))

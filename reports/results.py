@@ -1,0 +1,214 @@
+"""The outcome of a run as plain data: what ``results.json`` holds and every page is made of."""
+
+import json
+import math
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..reference.errors import PoinsotError
+from ..scenarios.scene import Scene
+from .cell import Cell
+from .verdict import Status, Verdict
+
+SCHEMA = "poinsot.results/1"
+#: From the gravest to the best: a cell is as good as its worst verdict.
+GRAVITY = (
+    Status.ERROR,
+    Status.FAIL,
+    Status.FIXED,
+    Status.UNAVAILABLE,
+    Status.UNSUPPORTED,
+    Status.KNOWN,
+    Status.PASS,
+)
+
+Key = tuple[str, str, str, float]
+
+
+class ResultsError(PoinsotError):
+    """A results.json that cannot be what it should be."""
+
+
+@dataclass(frozen=True)
+class CellRecord:
+    """One cell of a run, whether it left a log or not: ``status`` is set only where it did not."""
+
+    scene: str
+    engine: str
+    engine_version: str
+    scheme: str
+    twin: str
+    order: int
+    dt: float
+    steps: int
+    log: str | None = None
+    status: Status | None = None
+    message: str = ""
+    settings: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def key(self) -> Key:
+        """What tells this cell from the others of its run."""
+        return (self.scene, self.engine, self.scheme, self.dt)
+
+
+def results(
+    records: Sequence[CellRecord],
+    verdicts: Iterable[Verdict],
+    work_precision: Sequence[Mapping[str, Any]],
+    scenes: Mapping[str, Scene],
+    environment: Mapping[str, Any],
+    notes: Sequence[str],
+) -> dict[str, Any]:
+    """Everything about a run as a dictionary of plain values, stable in its order."""
+    by_cell: dict[Key, list[Verdict]] = defaultdict(list)
+    for verdict in verdicts:
+        by_cell[(verdict.scene, verdict.engine, verdict.scheme, verdict.dt)].append(verdict)
+    names = dict.fromkeys(record.scene for record in records)
+    return {
+        "schema": SCHEMA,
+        "environment": dict(environment),
+        "scenes": {name: _described(scenes[name]) for name in names},
+        "cells": [_cell(record, by_cell[record.key]) for record in records],
+        "work_precision": [dict(row) for row in work_precision],
+        "notes": list(notes),
+    }
+
+
+def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Error against run time: one row a cell and observable; times are null where none was taken."""
+    untimed = {"seconds_min": None, "seconds_median": None, "repeats": 0}
+    rows = []
+    for cell in cells:
+        p = cell.provenance
+        time = seconds.get((p.scene, p.engine, p.scheme, p.dt), untimed)
+        for observable in cell.scene.observables:
+            if observable.kind != "invariant":
+                rows.append(
+                    {
+                        "scene": p.scene,
+                        "engine": p.engine,
+                        "engine_version": p.engine_version,
+                        "scheme": p.scheme,
+                        "dt": p.dt,
+                        "steps": p.steps,
+                        "observable": observable.name,
+                        "unit": observable.unit,
+                        "error": _finite(cell.error(observable)),
+                        **time,
+                    }
+                )
+    return rows
+
+
+def write(path: Path, found: Mapping[str, Any]) -> None:
+    """Write results as JSON, one line a value, so that two runs can be compared by eye."""
+    path.write_text(json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def read(path: Path) -> dict[str, Any]:
+    """Read results; raises ``ResultsError`` if the file is not results of a schema known here."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ResultsError(f"{path.name}: {error}; expected the results of a run") from error
+    schema = found.get("schema") if isinstance(found, dict) else None
+    if schema != SCHEMA:
+        raise ResultsError(f"{path.name}: got schema {schema!r}, expected {SCHEMA!r}")
+    return dict(found)
+
+
+def records_of(found: Mapping[str, Any]) -> list[CellRecord]:
+    """The cells that results speak of, without their verdicts."""
+    return [
+        CellRecord(
+            scene=cell["scene"],
+            engine=cell["engine"],
+            engine_version=cell["engine_version"],
+            scheme=cell["scheme"],
+            twin=cell["twin"],
+            order=cell["order"],
+            dt=cell["dt"],
+            steps=cell["steps"],
+            log=cell["log"],
+            status=None if cell["log"] else Status(cell["status"]),
+            message=cell["message"],
+            settings=cell["settings"],
+        )
+        for cell in found["cells"]
+    ]
+
+
+def timings_of(found: Mapping[str, Any]) -> dict[Key, dict[str, Any]]:
+    """The run times that results hold, by cell."""
+    return {
+        (row["scene"], row["engine"], row["scheme"], row["dt"]): {
+            name: row[name] for name in ("seconds_min", "seconds_median", "repeats")
+        }
+        for row in found["work_precision"]
+        if row["seconds_min"] is not None
+    }
+
+
+def worst(statuses: Iterable[Status]) -> Status:
+    """The gravest of several statuses; a pass if there is none."""
+    return min(statuses, key=GRAVITY.index, default=Status.PASS)
+
+
+def exit_code(found: Mapping[str, Any]) -> int:
+    """What a run ends with: 3 if an engine crashed, else 1 if a check fails, else 0."""
+    statuses = {Status(cell["status"]) for cell in found["cells"]}
+    if Status.ERROR in statuses:
+        return 3
+    return 1 if statuses & {Status.FAIL, Status.FIXED} else 0
+
+
+def _cell(record: CellRecord, verdicts: Sequence[Verdict]) -> dict[str, Any]:
+    status = record.status or worst(verdict.status for verdict in verdicts)
+    return {
+        "scene": record.scene,
+        "engine": record.engine,
+        "engine_version": record.engine_version,
+        "scheme": record.scheme,
+        "twin": record.twin,
+        "order": record.order,
+        "dt": record.dt,
+        "steps": record.steps,
+        "status": status.value,
+        "log": record.log,
+        "message": record.message,
+        "settings": dict(record.settings),
+        "verdicts": [_verdict(verdict) for verdict in verdicts],
+    }
+
+
+def _verdict(verdict: Verdict) -> dict[str, Any]:
+    return {
+        "check": verdict.check,
+        "observable": verdict.observable,
+        "status": verdict.status.value,
+        "measured": _finite(verdict.measured),
+        "allowed": _finite(verdict.allowed),
+        "unit": verdict.unit,
+        "at": verdict.at,
+        "message": verdict.message,
+    }
+
+
+def _described(scene: Scene) -> dict[str, Any]:
+    return {
+        "summary": scene.summary,
+        "source": scene.source,
+        "features": sorted(scene.features),
+        "left_out": list(scene.left_out),
+        "duration": scene.duration,
+        "samples": scene.samples,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    """JSON has no infinity; the sentence beside the number says what happened."""
+    return value if value is not None and math.isfinite(value) else None

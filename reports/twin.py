@@ -1,0 +1,65 @@
+"""Twins: engines that run the same scheme at the same step must agree to rounding."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..reference.checked import Array
+from ..scenarios.observables import Observable
+from .cell import Cell
+from .growth import growth
+from .verdict import Status, Verdict
+
+#: Round-off that twins may differ by, relative to the state's size, and its growth with a kick's.
+BASE, PER_GROWTH = 1e-12, 1e-13
+#: Above this growth of a kick, rounding alone separates twins: there is nothing to check.
+CHAOTIC = 1e6
+
+
+def check(twins: Sequence[Cell]) -> list[Verdict]:
+    """Verdicts on cells of one scene, one step and one twin name.
+
+    A cell is held against the nearer half of the other engines' cells, so that where three run
+    the scheme and one is wrong, only that one fails.
+    """
+    if len({cell.provenance.engine for cell in twins}) < 2:
+        return []
+    A = growth(twins[0].scene)
+    if A > CHAOTIC:
+        return [cell.verdict("twin", "state", Status.PASS, _too_chaotic(A)) for cell in twins]
+    allowed = BASE + PER_GROWTH * A
+    return [_judged(cell, twins, allowed) for cell in twins]
+
+
+def _judged(cell: Cell, twins: Sequence[Cell], allowed: float) -> Verdict:
+    others = [twin for twin in twins if twin.provenance.engine != cell.provenance.engine]
+    ranked = sorted(((_apart(cell, twin), twin) for twin in others), key=lambda pair: pair[0][0])
+    (measured, observable, at), other = ranked[(len(ranked) - 1) // 2]
+    status = Status.PASS if measured <= allowed else Status.FAIL
+    name = f"{other.provenance.engine} {other.provenance.scheme}"
+    return cell.verdict(
+        "twin", "state", status,
+        f"farthest from its twin {name} in {observable}, relative to its size; "
+        f"1e-12 + 1e-13·A is allowed, A = {growth(cell.scene):.3g} being the growth of a kick",
+        measured, allowed, "1", at,
+    )  # fmt: skip
+
+
+def _apart(cell: Cell, other: Cell) -> tuple[float, str, float]:
+    """Largest relative distance over samples and state observables, in which one, and when."""
+    worst = (0.0, "nothing", 0.0)
+    for observable in cell.scene.observables:
+        if observable.kind == "state":
+            distances = _relative(cell, other, observable)
+            place = int(np.argmax(distances))
+            worst = max(worst, (float(distances[place]), observable.name, float(cell.trajectory.t[place])))
+    return worst
+
+
+def _relative(cell: Cell, other: Cell, observable: Observable) -> Array:
+    scale = observable.scale(cell.scene, cell.truth) or 1.0
+    return observable.distance(cell.scene, cell.trajectory, other.trajectory) / scale
+
+
+def _too_chaotic(A: float) -> str:
+    return f"no twin check: a kick of 1e-9 grows {A:.3g}-fold, more than {CHAOTIC:g}, so rounding alone separates twins"

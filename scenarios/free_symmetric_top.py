@@ -1,0 +1,64 @@
+"""A symmetric body spinning freely: ω circles the body's axis, which itself circles L."""
+
+import numpy as np
+
+from ..reference import torque_free
+from ..reference.checked import Array
+from . import observables, pictures
+from .body import Body, Joint, diagonal
+from .scene import Scene
+from .trajectory import Trajectory
+
+ATTITUDE = (0.1, 0.7, -0.1, 0.7)
+VELOCITY = (0.3, -0.2, 0.1)
+
+
+def _truth(scene: Scene, t: Array) -> Trajectory:
+    q0, v0 = np.array(scene.q0), np.array(scene.v0)
+    moments = np.diag(scene.bodies[0].inertia_array)
+    q, omega = torque_free.motion(moments, q0[3:], v0[3:], t)
+    position = q0[:3] + np.outer(t, v0[:3])
+    velocity = np.broadcast_to(v0[:3], position.shape)
+    none = np.empty((len(t), 0))
+    return Trajectory(t, position[:, None], q[:, None], velocity[:, None], omega[:, None], none, none)
+
+
+def _body_cone_rate(scene: Scene) -> float:
+    I1, _, I3 = np.diag(scene.bodies[0].inertia_array)
+    return torque_free.body_cone_rate(I1, I3, scene.v0[5])
+
+
+def _transverse(scene: Scene, motion: Trajectory) -> Array:
+    return np.asarray(motion.omega[:, 0, 0] + 1j * motion.omega[:, 0, 1])
+
+
+def _top(variant: str, I1: float, I3: float) -> Scene:
+    return Scene(
+        name="free_symmetric_top",
+        variant=variant,
+        summary=f"A free {variant} symmetric top: ω turns about the body's axis at Ω_b, the axis about L at L/I1.",
+        source="Landau & Lifshitz, Mechanics, § 33 and § 36; Goldstein, Classical Mechanics, ch. 5.6",
+        bodies=(Body("top", 1.0, diagonal(I1, I1, I3), (Joint("free", "free"),)),),
+        q0=(0.0, 0.0, 0.0, *ATTITUDE),
+        v0=(*VELOCITY, 1.0, 0.0, 5.0),
+        duration=10.0,
+        samples=500,
+        truth=_truth,
+        observables=(
+            observables.orientation(),
+            observables.omega(),
+            observables.rate("Omega_b", _transverse, _body_cone_rate),
+            observables.energy(),
+            observables.angular_momentum(),
+            observables.momentum(),
+            observables.unit_norm(),
+        ),
+        pictures=(pictures.tip(), pictures.body_cone()),
+        ladders={1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
+        errors=ERRORS[variant],
+    )
+
+
+ERRORS: dict[str, dict[str, dict[str, float]]] = {"oblate": {}, "prolate": {}}
+
+SCENES = (_top("oblate", 0.01, 0.02), _top("prolate", 0.02, 0.01))

@@ -1,0 +1,66 @@
+"""A symmetric top on a fixed point under gravity: it precesses and nutates."""
+
+import numpy as np
+
+from ..reference import heavy_top
+from ..reference.checked import Array
+from . import observables, pictures
+from .body import Body, Joint, Vector, diagonal
+from .scene import Scene
+from .trajectory import Trajectory, about_fixed_point
+
+#: Mass [kg], distance of the centre of mass [m], moments about the fixed point [kg m²], g [m/s²].
+MASS, LENGTH, I1, I3, G = 1.0, 0.05, 0.0065, 0.0075, 9.81
+TILTED = (0.28, 0.0, 0.0, 0.96)
+
+
+def _truth(scene: Scene, t: Array) -> Trajectory:
+    body = scene.bodies[0]
+    length = body.center_of_mass[2]
+    moments = (body.inertia[0][0] + body.mass * length**2, body.inertia[2][2])
+    q, omega = heavy_top.motion(body.mass, length, moments, -scene.gravity[2], scene.q0, scene.v0, t)
+    return about_fixed_point(t, np.array(body.center_of_mass), q, omega)
+
+
+def _top(
+    variant: str, summary: str, omega0: Vector, samples: int, ladders: dict[int, tuple[float, ...]]
+) -> Scene:
+    about_center = diagonal(I1 - MASS * LENGTH**2, I1 - MASS * LENGTH**2, I3)
+    return Scene(
+        name="heavy_top",
+        variant=variant,
+        summary=f"A symmetric top on a fixed point, {summary}.",
+        source="Landau & Lifshitz, Mechanics, § 35 problem 1; Goldstein, Classical Mechanics, ch. 5.7",
+        bodies=(
+            Body("top", MASS, about_center, (Joint("pivot", "ball"),), center_of_mass=(0.0, 0.0, LENGTH)),
+        ),
+        gravity=(0.0, 0.0, -G),
+        q0=TILTED,
+        v0=omega0,
+        duration=2.0,
+        samples=samples,
+        truth=_truth,
+        observables=(
+            observables.orientation(),
+            observables.omega(),
+            observables.energy(),
+            observables.vertical_angular_momentum(),
+            observables.axial_angular_momentum(),
+            observables.unit_norm(),
+        ),
+        pictures=(pictures.tip("Tip of the top"),),
+        ladders=ladders,
+        errors=ERRORS.get(variant, {}),
+    )
+
+
+ERRORS: dict[str, dict[str, dict[str, float]]] = {}
+
+SLOW = {1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)}
+FAST = {1: (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5), 4: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)}
+
+SCENES = (
+    _top("moderate", "spinning at 20 rad/s: deep nutation in loops", (1.5, 0.5, 20.0), 200, SLOW),
+    _top("fast", "spinning at 100 rad/s: fast shallow nutation", (1.5, 0.5, 100.0), 500, FAST),
+    _top("cusps", "released at rest at 20 rad/s of spin: its tip draws cusps", (0.0, 0.0, 20.0), 200, SLOW),
+)
