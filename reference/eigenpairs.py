@@ -63,8 +63,9 @@ def symmetric(name: str, value: npt.ArrayLike) -> Array:
 
 
 def _refined(T: Array, V: Array, A: Long) -> Long:
-    excess = np.eye(len(T)) - A.T @ (T @ A)
-    S = A.T @ (V @ A)
+    # Symmetric to the last bit, or rounding over a small gap would spoil the orthogonality.
+    excess = np.eye(len(T)) - _upper(A.T @ (T @ A))
+    S = _upper(A.T @ (V @ A))
     eigenvalues = np.diagonal(S) / (1 - np.diagonal(excess))
     gap = eigenvalues - eigenvalues[:, None]
     unsettled = np.linalg.norm((S - np.diag(np.diagonal(S))).astype(np.float64))
@@ -72,6 +73,10 @@ def _refined(T: Array, V: Array, A: Long) -> Long:
     apart = np.abs(gap) > 2 * unsettled
     # Where eigenvalues are equal only orthogonality is left to ask for.
     return A + A @ np.where(apart, (S + eigenvalues * excess) / np.where(apart, gap, 1), excess / 2)
+
+
+def _upper(matrix: Long) -> Long:
+    return np.triu(matrix) + np.triu(matrix, 1).T
 
 
 def _rayleigh(V: Array, A: Long) -> Long:
