@@ -26,7 +26,7 @@ class Declaration:
 
 def declared() -> list[Declaration]:
     """The engines that have a file in this folder, by name."""
-    return [_declaration(path) for path in sorted(Path(__file__).parent.glob("*_.py"))]
+    return [_declaration(path) for path in sorted(Path(__file__).parent.glob("[a-z]*_.py"))]
 
 
 def _declaration(path: Path) -> Declaration:

@@ -9,7 +9,7 @@ Indust. Appl. Math.* 35 (2018) 1007, for one matrix, with T added.
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
+import scipy
 
 from .checked import Array, finite
 from .errors import InputError

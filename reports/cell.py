@@ -60,11 +60,13 @@ class Cell:
     def round_off(self, observable: Observable) -> float:
         """What rounding may add up to in ``observable`` over this run.
 
-        Each step may be wrong by an ε of the observable's size, and an early error grows as a
-        kicked motion departs from the truth; samples and truth cost another ten.
+        Every step commits an ε of the observable's size in no particular direction, which then
+        grows as a kicked motion departs from the truth: three standard deviations of that walk,
+        and ten ε for reading a sample and for the truth itself.
         """
         scale = observable.scale(self.scene, self.truth)
-        return EPSILON * scale * (10 + self.provenance.steps) * max(1.0, growth(self.scene))
+        walk = 3 * np.sqrt(self.provenance.steps) * max(1.0, growth(self.scene))
+        return float(EPSILON * scale * (10 + walk))
 
     def verdict(
         self,

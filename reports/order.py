@@ -12,10 +12,12 @@ from .verdict import Status, Verdict
 
 #: Fewest steps that make a ladder.
 STEPS = 5
+#: Fewest of them whose error must be clear of round-off.
+FEWEST = 3
 #: How far a fitted order may be from the declared one: less than half of what tells two apart.
 TOLERANCE = 0.25
 #: Errors this many times above round-off are truncation.
-ABOVE = 20.0
+ABOVE = 5.0
 
 
 class Fit(NamedTuple):
@@ -51,24 +53,22 @@ def _order(cells: Sequence[Cell], observable: Observable) -> Verdict:
     floors = np.array([cell.round_off(observable) for cell in cells])
     finest, declared = cells[-1], cells[0].provenance.order
     if np.all(errors <= floors):
-        return finest.verdict(
-            "order", observable.name, Status.PASS,
-            f"exact to round-off at all {len(cells)} steps: there is no order to measure",
-        )  # fmt: skip
+        message = f"exact to round-off at all {len(cells)} steps: there is no order to measure"
+        return finest.verdict("order", observable.name, Status.PASS, message)
     clear = errors > ABOVE * floors
-    if clear.sum() < 3:
-        return finest.verdict(
-            "order", observable.name, Status.FAIL,
-            f"only {clear.sum()} of {len(cells)} steps have an error clear of round-off; at least 3 are needed",
-        )  # fmt: skip
+    if clear.sum() < FEWEST:
+        message = (
+            f"only {clear.sum()} of {len(cells)} steps are clear of round-off, expected {FEWEST} or more"
+        )
+        return finest.verdict("order", observable.name, Status.FAIL, message)
     found = fit(dts[clear], errors[clear])
-    status = Status.PASS if abs(found.order - declared) <= TOLERANCE else Status.FAIL
-    return finest.verdict(
-        "order", observable.name, status,
-        f"fitted order {found.order:.3f} ± {found.uncertainty:.3f} over {found.steps} steps from {dts[0]:g} s to "
-        f"{dts[-1]:g} s, declared {declared}",
-        abs(found.order - declared), TOLERANCE, "1",
-    )  # fmt: skip
+    off = abs(found.order - declared)
+    message = (
+        f"fitted order {found.order:.3f} ± {found.uncertainty:.3f} over {found.steps} steps "
+        f"from {dts[clear][0]:g} s to {dts[clear][-1]:g} s, declared {declared}"
+    )
+    status = Status.PASS if off <= TOLERANCE else Status.FAIL
+    return finest.verdict("order", observable.name, status, message, off, TOLERANCE, "1")
 
 
 def _limit(cells: Sequence[Cell], observable: Observable) -> Verdict:

@@ -11,6 +11,7 @@ from .scene import Scene
 from .trajectory import Trajectory
 
 OXYGEN, CARBON, STIFFNESS, SPACING = 16.0, 12.0, 1600.0, 1.0
+PHASE = np.pi / 3
 FREQUENCIES = co2_chain.frequencies(OXYGEN, CARBON, STIFFNESS)
 MODES = co2_chain.modes(OXYGEN, CARBON)
 #: MuJoCo's and Pinocchio's implicit schemes do not treat a joint's spring implicitly, so that on a
@@ -19,6 +20,8 @@ SCHEMES = {
     "semi-implicit Euler": "semi_implicit_euler",
     "implicit gyroscopic": "semi_implicit_euler",
     "RKMK4": "rk4",
+    "MuJoCo discrete": "implicit_euler",
+    "MuJoCo implicitfast": "semi_implicit_euler",
 }
 
 
@@ -67,9 +70,13 @@ RATES = {1: _frequency(1, "symmetric"), 2: _frequency(2, "antisymmetric")}
 
 
 def _chain(variant: str, amplitudes: Vector) -> Scene:
-    """Each mode starts at its largest displacement; the free one, which has none, with a velocity."""
-    displacement = MODES @ (np.array(amplitudes) * (0, 1, 1))
-    velocity = MODES @ (np.array(amplitudes) * (1, 0, 0))
+    """Each mode starts a sixth of a turn past its largest displacement, the free one with a velocity.
+
+    From a turning point, semi-implicit Euler's velocities would be accurate to second order.
+    """
+    size = np.array(amplitudes)
+    displacement = MODES @ (size * (0.0, np.cos(PHASE), np.cos(PHASE)))
+    velocity = MODES @ (size * (1.0, -FREQUENCIES[1] * np.sin(PHASE), -FREQUENCIES[2] * np.sin(PHASE)))
     bodies = tuple(
         Body(
             name,

@@ -36,7 +36,7 @@ def _top(variant: str, I1: float, I3: float) -> Scene:
     return Scene(
         name="free_symmetric_top",
         variant=variant,
-        summary=f"A free {variant} symmetric top: ω turns about the body's axis at Ω_b, the axis about L at L/I1.",
+        summary=f"A free {variant} top: ω turns about the body's axis at Ω_b, that axis about L at L/I1.",
         source="Landau & Lifshitz, Mechanics, § 33 and § 36; Goldstein, Classical Mechanics, ch. 5.6",
         bodies=(Body("top", 1.0, diagonal(I1, I1, I3), (Joint("free", "free"),)),),
         q0=(0.0, 0.0, 0.0, *ATTITUDE),

@@ -1,0 +1,56 @@
+"""Measure the error constants C of C·dt^order that scenes record, and print them as the scene keeps them.
+
+    python benchmarks/error_constants.py free_symmetric_top heavy_top
+
+C is the largest error over dt^order on the ladder of each scheme, rounded up to two digits; where no
+step is clear of round-off it is 0, and round-off alone is allowed.
+"""
+
+import sys
+from math import ceil, floor, log10
+from pprint import pformat
+
+from poinsot.adapters import registry
+from poinsot.adapters.simulate import simulate, unsupported
+from poinsot.reports.cell import Cell
+from poinsot.scenarios.registry import scenes, select
+
+
+def constant(cells, observable):
+    """Largest error over dt^order among the cells that are clear of round-off."""
+    clear = [(cell.error(observable), cell) for cell in cells]
+    found = [
+        error / cell.provenance.dt**cell.provenance.order
+        for error, cell in clear
+        if error > cell.round_off(observable)
+    ]
+    return rounded_up(max(found, default=0.0))
+
+
+def rounded_up(value):
+    """``value`` with two significant digits, never less than it was."""
+    if value == 0:
+        return 0.0
+    unit = 10.0 ** (floor(log10(value)) - 1)
+    return float(f"{ceil(value / unit) * unit:.2g}")
+
+
+def measured(scene):
+    """``{twin: {observable: C}}`` of one scene over every scheme that is installed."""
+    found, versions = {}, {}
+    for engine in registry.engines().values():
+        for scheme in () if isinstance(engine, str) else engine.schemes:
+            if scheme.twin in found or unsupported(scene, engine, scheme):
+                continue
+            steps = sorted({*scene.ladder(scheme.order), scene.dt})
+            cells = [Cell.of(simulate(scene, engine, scheme, dt)[0], scenes()) for dt in steps]
+            found[scheme.twin] = {o.name: constant(cells, o) for o in scene.observables}
+            versions[engine.name] = engine.version()
+    return found, versions
+
+
+if __name__ == "__main__":
+    for chosen in select(sys.argv[1:]):
+        table, by = measured(chosen)
+        print(f"# {chosen.full_name}: {', '.join(f'{name} {version}' for name, version in by.items())}")
+        print(f'"{chosen.variant}": {pformat(table, width=100, sort_dicts=False)},')
