@@ -32,8 +32,7 @@ class State(NamedTuple):
     """Where ``b`` bodies and ``j`` scalar joints are now; shapes and frames as in ``Trajectory``.
 
     ``position`` (b, 3), ``quaternion`` (b, 4) scalar last, ``velocity`` (b, 3), ``omega`` (b, 3) in
-    body axes, ``joint_position`` (j,), ``joint_velocity`` (j,); all of them copies that later
-    steps do not change.
+    body axes, ``joint_position`` (j,), ``joint_velocity`` (j,).
     """
 
     position: Array

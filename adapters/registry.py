@@ -13,10 +13,7 @@ from .engine import Engine, Scheme
 
 ENTRY_POINTS = "poinsot.engines"
 #: What a class must have to be an engine.
-REQUIRED = (
-    "name", "schemes", "features", "version", "build", "step", "state", "readback", "acceleration", "model_text",
-    "close",
-)  # fmt: skip
+REQUIRED = tuple(name for name in (*Engine.__annotations__, *vars(Engine)) if not name.startswith("_"))
 
 
 def names() -> list[str]:

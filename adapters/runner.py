@@ -76,7 +76,7 @@ def time(
 def file_name(request: Request) -> str:
     """Name of a cell's log: readable, and safe on any file system."""
     text = f"{request.scene}-{request.engine}-{request.scheme}-{request.dt:.9g}"
-    return re.sub(r"[^A-Za-z0-9.+-]+", "_", text) + ".mcap"
+    return re.sub(r"[^A-Za-z0-9.+-]+", "_", text.replace("[", "-").replace("]", "")) + ".mcap"
 
 
 def _isolated(

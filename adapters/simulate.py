@@ -80,12 +80,15 @@ def digest(motion: Trajectory) -> str:
 
 def _record(machine: Engine, scene: Scene, dt: float) -> Trajectory:
     stride = scene.steps_per_sample(dt)
-    states = [machine.state()]
-    for _ in range(scene.samples):
-        machine.step(stride)
-        states.append(machine.state())
+    columns = [np.empty((scene.samples + 1, *np.shape(part))) for part in machine.state()]
+    for sample in range(scene.samples + 1):
+        if sample:
+            machine.step(stride)
+        # Assigned, so copied: an engine may hand out views of arrays that its next step overwrites.
+        for column, part in zip(columns, machine.state(), strict=True):
+            column[sample] = part
     t = np.arange(scene.samples + 1) * stride * dt
-    motion = Trajectory(t, *(np.stack(column) for column in zip(*states, strict=True)))
+    motion = Trajectory(t, *columns)
     broken = motion.first_not_finite()
     if broken is not None:
         raise EngineError(f"the state is not finite at t = {broken:g} s")

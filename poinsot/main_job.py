@@ -63,7 +63,9 @@ def run(
     timings = _timed(laid, records, time_limit, progress) if with_timing else {}
     seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
     untimed = [
-        f"{' '.join(map(str, key))}: not timed, {why}" for key, why in timings.items() if isinstance(why, str)
+        f"{scene} in {engine} {scheme} at dt {dt:g} s: not timed, {reason}"
+        for (scene, engine, scheme, dt), reason in timings.items()
+        if isinstance(reason, str)
     ]
     facts = environment() | {
         "command": command,
@@ -90,12 +92,7 @@ def report(
     known = all_scenes()
     motions = {record.key: _read(folder, record) for record in records if record.log}
     cells = [Cell.of(motion, known) for motion in motions.values()]
-    silent = dict.fromkeys(
-        f"{cell.provenance.engine} {cell.provenance.scheme} in {cell.scene.name}: no error constant is recorded for "
-        f"{', '.join(missing)}; judged by order and limit alone."
-        for cell in cells
-        if (missing := truth.without_constant(cell))
-    )
+    silent = [_unjudged(cell, missing) for cell in cells if (missing := truth.without_constant(cell))]
     found = results.results(
         records,
         judge(motions.values()),
@@ -127,6 +124,14 @@ def again(folder: Path) -> dict[str, Any]:
         )
     records = [_record_of(path) for path in logs]
     return report(folder, records, {}, environment(), ["There was no results.json: run times are not known."])
+
+
+def _unjudged(cell: Cell, observables: Sequence[str]) -> str:
+    p = cell.provenance
+    return (
+        f"{p.engine} {p.scheme} in {p.scene}: no error constant is recorded for {', '.join(observables)}; "
+        "judged by order and limit alone."
+    )
 
 
 def _simulated(
@@ -177,14 +182,19 @@ def _timed(
 
 
 def _read(folder: Path, record: CellRecord) -> Trajectory:
-    return log.read(folder / str(record.log)).trajectory
+    logged = log.read(folder / str(record.log))
+    if record.scene not in all_scenes() or logged.scene_json != all_scenes()[record.scene].as_json():
+        raise InputError(
+            f"{record.log}: got a scene {record.scene} that is not the one this Poinsot knows by that name; "
+            "report it with the version that ran it, or run it again"
+        )
+    return logged.trajectory
 
 
 def _record_of(path: Path) -> CellRecord:
-    provenance = log.read(path).trajectory.provenance
-    if provenance is None:
+    p = log.read(path).trajectory.provenance
+    if p is None:
         raise InputError(f"{path.name}: got a log without provenance, expected one that `poinsot run` wrote")
-    p = provenance
     return CellRecord(
         p.scene, p.engine, p.engine_version, p.scheme, p.twin, p.order, p.dt, p.steps,
         log=f"{LOGS}/{path.name}", settings=p.settings,

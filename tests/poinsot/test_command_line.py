@@ -1,0 +1,145 @@
+"""Bad input: one clear line, the right exit code, no traceback, and nothing written."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from poinsot.command_line import main
+
+TOP = "free_symmetric_top[oblate]"
+
+OWN = """
+import numpy as np
+from poinsot.adapters.engine import Scheme, Setup, State
+
+class Still:
+    name = "still"
+    schemes = (Scheme("none", 1, "none", {}),)
+    features = frozenset({"free"})
+    settings = {}
+    version = staticmethod(lambda: "1")
+    def build(self, scene, scheme, dt): self.q, self.v = np.array(scene.q0), np.array(scene.v0)
+    def step(self, n): pass
+    def state(self):
+        q, v, none = self.q[None], self.v[None], np.empty(0)
+        return State(q[:, :3], q[:, 3:], v[:, :3], v[:, 3:], none, none)
+    def readback(self): return Setup({})
+    def acceleration(self, q, v): return np.zeros(6)
+    def model_text(self): return "model.txt", "nothing"
+    def close(self): pass
+
+class NoEngine:
+    name = "nothing"
+"""
+
+
+@pytest.fixture
+def own(tmp_path):
+    path = tmp_path / "own.py"
+    path.write_text(OWN)
+    return path
+
+
+def complaint(capsys, *arguments):
+    """Exit code and the one line on standard error."""
+    code = main([str(argument) for argument in arguments])
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("poinsot: ")
+    assert err.count("\n") == 1
+    assert "Traceback" not in err
+    return code, err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["run", "free_symetric_top"], "did you mean 'free_symmetric_top'?"),
+        (["run", "heavy_top[slow]"], "heavy_top[moderate]"),
+        (["run", TOP, "--engine", "mujocco"], "did you mean 'mujoco'?"),
+        (["run", TOP, "--engine", "nowhere.py:Engine"], "existing Python file"),
+        (["run", TOP, "--engine", "no_such_module:Engine"], "cannot be found"),
+        (["run", TOP, "--scheme", "RK5"], "did you mean 'RK4'?"),
+        (["run", TOP, "--dt", "0"], "above 0"),
+        (["run", TOP, "--dt", "-1e-3"], "above 0"),
+        (["run", TOP, "--dt", "nan"], "finite"),
+        (["run", TOP, "--dt", "11"], "at most 10 s"),
+        (["run", TOP, "--dt", "fast"], "fast"),
+        (["run", TOP, "--workers", "0"], "at least 1"),
+        (["run", TOP, "--time-limit", "0"], "above 0"),
+        (["run", "--no-such-option"], "no-such-option"),
+        (["reprot"], "report"),
+        (["report", "nowhere"], "holds no run"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(capsys, tmp_path, monkeypatch, arguments, says):
+    monkeypatch.chdir(tmp_path)
+    code, err = complaint(capsys, *arguments)
+    assert code == 2
+    assert says in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_class_that_is_no_engine_is_refused(capsys, own):
+    code, err = complaint(capsys, "run", TOP, "--engine", f"{own}:NoEngine")
+    assert code == 2
+    assert "lacks" in err
+    assert "schemes" in err
+
+
+def test_an_out_folder_that_holds_something_is_left_alone(capsys, tmp_path, own):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "results.json").write_text("precious")
+    code, err = complaint(capsys, "run", TOP, "--engine", f"{own}:Still", "--out", out)
+    assert code == 2
+    assert "not empty" in err
+    assert (out / "results.json").read_text() == "precious"
+    assert [path.name for path in out.iterdir()] == ["results.json"]
+
+
+def test_an_out_folder_that_cannot_be_made_is_refused(capsys, tmp_path, own):
+    code, err = complaint(capsys, "run", TOP, "--engine", f"{own}:Still", "--out", own / "below_a_file")
+    assert code == 2
+    assert "cannot be written" in err
+
+
+def test_a_wrong_engine_ends_with_1_and_damage_with_4(capsys, tmp_path, own):
+    out = tmp_path / "out"
+    arguments = ["run", TOP, "--engine", f"{own}:Still", "--dt", "0.02", "--no-timing", "--out", str(out)]
+    assert main(arguments) == 1
+    assert {"report.html", "summary.md", "results.json", "junit.xml", "logs"} == {
+        p.name for p in out.iterdir()
+    }
+    before = json.loads((out / "results.json").read_text())
+    assert main(["report", str(out)]) == 1
+    assert json.loads((out / "results.json").read_text()) == before
+    capsys.readouterr()
+    log = next((out / "logs").iterdir())
+    log.write_bytes(log.read_bytes()[:-200])
+    code, err = complaint(capsys, "report", out)
+    assert code == 4
+    assert log.name in err
+    (out / "results.json").write_text("{}")
+    code, err = complaint(capsys, "report", out)
+    assert code == 4
+    assert "schema" in err
+
+
+def test_list_as_json(capsys):
+    assert main(["list", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["scenes"][TOP]["features"] == ["free"]
+    assert {"mujoco", "pybullet", "pinocchio"} <= found["engines"].keys()
+    euler = next(s for s in found["engines"]["mujoco"]["schemes"] if s["name"] == "Euler")
+    assert (euler["order"], euler["twin"]) == (1, "semi-implicit Euler")
+
+
+def test_list_imports_no_engine():
+    code = (
+        "import sys; from poinsot.command_line import main; main(['list']);"
+        "sys.exit(len({'mujoco', 'pybullet', 'pinocchio'} & sys.modules.keys()))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, check=False).returncode == 0
