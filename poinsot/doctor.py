@@ -2,9 +2,11 @@
 
 import platform
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 
 from .adapters import registry, runner
+from .adapters.engine import Engine
 from .adapters.environment import environment
 from .adapters.runner import Request
 
@@ -24,15 +26,19 @@ def examine() -> tuple[str, bool]:
     """
     lines = [f"{name}: {value}" for name, value in environment().items()]
     found = registry.engines()
-    tests = {name: Request(SELF_TEST, name, engine.schemes[0].name, 2e-3) for name, engine in found.items()
-             if not isinstance(engine, str)}  # fmt: skip
+    installed = {name: engine for name, engine in found.items() if not isinstance(engine, str)}
+    tests = [Request(SELF_TEST, name, engine.schemes[0].name, 2e-3) for name, engine in installed.items()]
     with tempfile.TemporaryDirectory() as folder:
-        outcomes = runner.run(list(tests.values()), Path(folder), workers=1, time_limit=60.0)
+        outcomes = runner.run(tests, Path(folder), workers=1, time_limit=60.0)
     errors = {outcome.request.engine: outcome.error for outcome in outcomes}
-    for name, engine in found.items():
-        if isinstance(engine, str):
-            lines.append(f"{name}: unavailable: {engine}; wheels exist for {WHEELS.get(name, 'unknown systems')}, "
-                         f"this is CPython {platform.python_version()} on {platform.system()}")  # fmt: skip
-        else:
-            lines.append(f"{name} {engine.version()}: {errors[name] or 'self-test passed'}")
+    lines += [f"{name}: {_state(name, engine, errors)}" for name, engine in found.items()]
     return "\n".join(lines), not any(errors.values())
+
+
+def _state(name: str, engine: type[Engine] | str, errors: Mapping[str, str]) -> str:
+    if isinstance(engine, str):
+        here = f"CPython {platform.python_version()} on {platform.system()}"
+        return (
+            f"unavailable: {engine}; wheels exist for {WHEELS.get(name, 'unknown systems')}, this is {here}"
+        )
+    return f"{engine.version()}: {errors[name] or 'self-test passed'}"

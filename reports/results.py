@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..reference.errors import PoinsotError
+from ..scenarios.observables import Observable
 from ..scenarios.scene import Scene
 from .cell import Cell
 from .verdict import Status, Verdict
@@ -87,20 +88,7 @@ def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any
         time = seconds.get((p.scene, p.engine, p.scheme, p.dt), untimed)
         for observable in cell.scene.observables:
             if observable.kind != "invariant":
-                rows.append(
-                    {
-                        "scene": p.scene,
-                        "engine": p.engine,
-                        "engine_version": p.engine_version,
-                        "scheme": p.scheme,
-                        "dt": p.dt,
-                        "steps": p.steps,
-                        "observable": observable.name,
-                        "unit": observable.unit,
-                        "error": _finite(cell.error(observable)),
-                        **time,
-                    }
-                )
+                rows.append(_row(cell, observable) | time)  # noqa: PERF401 (two loops read better than one)
     return rows
 
 
@@ -164,6 +152,21 @@ def exit_code(found: Mapping[str, Any]) -> int:
     if Status.ERROR in statuses:
         return 3
     return 1 if statuses & {Status.FAIL, Status.FIXED} else 0
+
+
+def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
+    p = cell.provenance
+    return {
+        "scene": p.scene,
+        "engine": p.engine,
+        "engine_version": p.engine_version,
+        "scheme": p.scheme,
+        "dt": p.dt,
+        "steps": p.steps,
+        "observable": observable.name,
+        "unit": observable.unit,
+        "error": _finite(cell.error(observable)),
+    }
 
 
 def _cell(record: CellRecord, verdicts: Sequence[Verdict]) -> dict[str, Any]:

@@ -62,4 +62,4 @@ def _relative(cell: Cell, other: Cell, observable: Observable) -> Array:
 
 
 def _too_chaotic(A: float) -> str:
-    return f"no twin check: a kick of 1e-9 grows {A:.3g}-fold, more than {CHAOTIC:g}, so rounding alone separates twins"
+    return f"no twin check: a kick grows {A:.3g}-fold, more than {CHAOTIC:g}; rounding alone separates twins"
