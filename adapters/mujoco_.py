@@ -1,0 +1,255 @@
+"""MuJoCo, built by MjSpec: bodies and joints only, no geometry, no contact, no constraint."""
+
+import warnings
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..reference.checked import Array
+from ..scenarios.body import WIDTHS, Body, Joint
+from ..scenarios.scene import FEATURES, Scene
+from .engine import EngineError, Scheme, Setup, State
+from .mujoco_mjcf import mjcf
+
+#: Where a joint's coordinates lie among MuJoCo's, whose quaternions are scalar-first.
+_PLACES = {"free": (0, 1, 2, 4, 5, 6, 3), "ball": (1, 2, 3, 0), "hinge": (0,), "slide": (0,)}
+_SWITCHED_OFF = ("contact", "constraint", "autoreset", "eulerdamp")
+_NO_TURN = (1.0, 0.0, 0.0, 0.0)
+
+
+def _integrator(scheme: Scheme) -> str:
+    return f"mjINT_{scheme.name.upper()}"
+
+
+class MuJoCo:
+    """MuJoCo behind the calls of ``Engine``.
+
+    On a free body that carries no other, ``implicitfast`` and ``discrete`` do as ``implicit``;
+    elsewhere they leave the gyroscopic term explicit, as ``Euler`` does. Both take dampers, and
+    ``discrete`` springs too, at the end of the step. So each of the two is only its own twin.
+    """
+
+    name: ClassVar[str] = "mujoco"
+    schemes: ClassVar[tuple[Scheme, ...]] = (
+        Scheme("Euler", 1, "semi-implicit Euler", {}),
+        Scheme("implicit", 1, "implicit gyroscopic", {}),
+        Scheme("implicitfast", 1, "implicitfast", {}),
+        Scheme("RK4", 4, "RKMK4", {}),
+        Scheme("discrete", 1, "discrete", {}),
+    )
+    features: ClassVar[frozenset[str]] = frozenset(FEATURES)
+    settings: ClassVar[dict[str, str]] = {
+        "autoreset": "off: a state that is not finite stays what it is and is reported",
+        "eulerdamp": "off: Euler takes dampers at the start of the step, as its twins do",
+        "contact, constraint": "off: nothing touches, and joints need no constraint",
+        "sameframe": "none, where the inertial frame differs at all from the body's; "
+        "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
+    }
+
+    @staticmethod
+    def version() -> str:
+        """Version of the installed engine."""
+        return str(mujoco.__version__)
+
+    def build(self, scene: Scene, scheme: Scheme, dt: float) -> None:
+        """Build ``scene`` at its initial state. Raises ``EngineError`` if MuJoCo refuses the model."""
+        self.close()
+        # Left alone, MuJoCo appends to MUJOCO_LOG.TXT in the working directory; its counters say as much.
+        if mujoco.get_mju_user_warning() is None:
+            mujoco.set_mju_user_warning(lambda message: None)
+        self._scene, self._scheme, self._steps = scene, scheme, 0
+        self._spec, bodies, joints = _spec(scene, scheme, dt)
+        self._model = _compiled(self._spec, scene.full_name)
+        _keep_small_offsets(self._model)
+        self._locate([body.id for body in bodies], [joint.id for joint in joints])
+        self._data, self._scratch = mujoco.MjData(self._model), mujoco.MjData(self._model)
+        self._data.qpos[self._q], self._data.qvel[self._v] = scene.q0, scene.v0
+
+    def step(self, n: int) -> None:
+        """Advance by ``n`` steps in MuJoCo's own loop."""
+        mujoco.mj_step(self._model, self._data, nstep=n)
+        self._steps += n
+
+    def state(self) -> State:
+        """Where everything is now. Raises ``EngineError`` if MuJoCo warned, reset itself or is not finite."""
+        self._sound()
+        model, data, bodies = self._model, self._scratch, self._bodies
+        # A step leaves the kinematics of the state before it; a scratch copy leaves the motion alone.
+        data.qpos[:], data.qvel[:] = self._data.qpos, self._data.qvel
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        # MuJoCo gives a body's velocity at the centre of mass of its whole tree.
+        arm = data.xipos[bodies] - data.subtree_com[model.body_rootid[bodies]]
+        omega_world, velocity = data.cvel[bodies, :3], data.cvel[bodies, 3:]
+        return State(
+            position=data.xipos[bodies],
+            quaternion=data.xquat[bodies][:, [1, 2, 3, 0]],
+            velocity=velocity + np.cross(omega_world, arm),
+            omega=np.einsum("bji,bj->bi", data.xmat[bodies].reshape(-1, 3, 3), omega_world),
+            joint_position=data.qpos[self._scalar_q],
+            joint_velocity=data.qvel[self._scalar_v],
+        )
+
+    def readback(self) -> Setup:
+        """How MuJoCo is set up, by its own account; nothing has to be probed."""
+        model, values = self._model, _world(self._model)
+        for body, i in zip(self._scene.bodies, self._bodies, strict=True):
+            com, turn = _inertial_frame(model, i)
+            values[f"body/{body.name}/mass"] = float(model.body_mass[i])
+            values[f"body/{body.name}/center_of_mass"] = com
+            values[f"body/{body.name}/inertia"] = turn @ np.diag(model.body_inertia[i]) @ turn.T
+        for joint, v in zip(self._scene.scalar_joints, self._scalar_v, strict=True):
+            values[f"joint/{joint.name}/stiffness"] = float(model.jnt_stiffness[model.dof_jntid[v]])
+            values[f"joint/{joint.name}/damping"] = float(model.dof_damping[v])
+        return Setup(values)
+
+    def acceleration(self, q: Array, v: Array) -> Array:
+        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``."""
+        model, data = self._model, self._scratch
+        data.qpos[self._q], data.qvel[self._v] = q, v
+        # Under "discrete" qacc is the change of velocity over a whole step.
+        chosen, model.opt.integrator = model.opt.integrator, mujoco.mjtIntegrator.mjINT_EULER
+        mujoco.mj_forward(model, data)
+        model.opt.integrator = chosen
+        return np.asarray(data.qacc[self._v])
+
+    def model_text(self) -> tuple[str, str]:
+        """The model as MJCF, with every digit."""
+        return "model.xml", mjcf(self._spec, self._scheme.name, _SWITCHED_OFF)
+
+    def close(self) -> None:
+        """Let go of the model."""
+        for name in ("_spec", "_model", "_data", "_scratch"):
+            self.__dict__.pop(name, None)
+
+    def _locate(self, bodies: list[int], joints: list[int]) -> None:
+        """Note where the scene's bodies and coordinates lie: MuJoCo sorts bodies depth first."""
+        model, kinds = self._model, [joint.kind for joint in self._scene.joints]
+        first_q, first_v = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
+        scalar = [kind in ("hinge", "slide") for kind in kinds]
+        self._bodies = np.array(bodies)
+        self._q = np.array(
+            [i + k for kind, i in zip(kinds, first_q, strict=True) for k in _PLACES[kind]], int
+        )
+        self._v = np.array(
+            [i + k for kind, i in zip(kinds, first_v, strict=True) for k in range(WIDTHS[kind][1])], int
+        )
+        self._scalar_q, self._scalar_v = first_q[scalar], first_v[scalar]
+
+    def _sound(self) -> None:
+        data, dt = self._data, self._model.opt.timestep
+        run = f"{self._steps} steps of {dt} s"
+        if data.warning.number.any():
+            kinds = [mujoco.mjtWarning(int(i)).name for i in np.flatnonzero(data.warning.number)]
+            raise EngineError(f"MuJoCo warned within {run}: {', '.join(kinds)}")
+        # Adding up dt rounds by far less than half a step; a reset starts the clock again.
+        if abs(data.time - self._steps * dt) > dt / 2:
+            raise EngineError(f"MuJoCo reset itself: its clock shows {data.time} s after {run}")
+        if not (np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all()):
+            raise EngineError(f"MuJoCo left the finite numbers within {run}")
+
+
+# Until release 4.0 RK4 averaged the body velocities of its stages: second order in attitude.
+if int(MuJoCo.version().split(".")[0]) < 4:
+    MuJoCo.schemes = tuple(
+        Scheme("RK4", 2, "RK4 of body velocities", {}) if scheme.name == "RK4" else scheme
+        for scheme in MuJoCo.schemes
+        if hasattr(mujoco.mjtIntegrator, _integrator(scheme))
+    )
+
+
+def _spec(scene: Scene, scheme: Scheme, dt: float) -> tuple[Any, list[Any], list[Any]]:
+    """The model's description, and in it the scene's bodies and joints."""
+    spec = mujoco.MjSpec()
+    spec.modelname = scene.full_name
+    spec.option.integrator = getattr(mujoco.mjtIntegrator, _integrator(scheme))
+    spec.option.timestep, spec.option.gravity = dt, scene.gravity
+    for flag in _SWITCHED_OFF:
+        spec.option.disableflags |= int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag.upper()}"))
+    bodies: dict[str | None, Any] = {None: spec.worldbody}
+    joints = []
+    for body in scene.bodies:
+        bodies[body.name] = _add_body(bodies[body.parent], body)
+        joints += [_add_joint(bodies[body.name], joint) for joint in body.joints]
+    return spec, list(bodies.values())[1:], joints
+
+
+def _add_body(parent: Any, body: Body) -> Any:
+    moments, iquat = _principal_axes(body.inertia_array)
+    x, y, z, w = body.quaternion
+    return parent.add_body(
+        name=body.name,
+        pos=body.position,
+        quat=(w, x, y, z),
+        mass=body.mass,
+        ipos=body.center_of_mass,
+        iquat=iquat,
+        inertia=moments,
+        explicitinertial=True,
+        # Else MuJoCo may take the mass matrix for diagonal although the centre is off by up to 1e-6 m.
+        simple=iquat == _NO_TURN and not any(body.center_of_mass),
+    )
+
+
+def _add_joint(body: Any, joint: Joint) -> Any:
+    kind = getattr(mujoco.mjtJoint, f"mjJNT_{joint.kind.upper()}")
+    added = body.add_joint(name=joint.name, type=kind, axis=joint.axis)
+    added.stiffness[0], added.damping[0] = joint.stiffness, joint.damping
+    return added
+
+
+def _principal_axes(inertia: Array) -> tuple[Array, tuple[float, ...]]:
+    """Principal moments and the turn to their axes; ours, as MuJoCo's drops what is below 1e-12 kg m²."""
+    if np.array_equal(inertia, np.diag(np.diag(inertia))):
+        moments, iquat = np.diag(inertia).copy(), _NO_TURN
+    else:
+        moments, axes = np.linalg.eigh(inertia)
+        x, y, z, w = Rotation.from_matrix(axes * np.linalg.det(axes)).as_quat().tolist()
+        iquat = (w, x, y, z)
+    # MuJoCo grants no rounding to a plate, whose largest moment is the sum of the others.
+    largest = int(np.argmax(moments))
+    moments[largest] = min(moments[largest], np.delete(moments, largest).sum())
+    return moments, iquat
+
+
+def _compiled(spec: Any, name: str) -> Any:
+    try:
+        with warnings.catch_warnings():
+            # Compiling looks at all coordinates zero, a pose that may be singular without ever being met.
+            warnings.simplefilter("ignore")
+            return spec.compile()
+    except ValueError as error:
+        raise EngineError(f"MuJoCo refuses {name}: {' '.join(str(error).split())}") from error
+
+
+def _keep_small_offsets(model: Any) -> None:
+    """Undo MuJoCo's taking an inertial frame within 1e-6 of the body's for the body's."""
+    aligned = (model.body_ipos == 0).all(axis=1) & (model.body_iquat == _NO_TURN).all(axis=1)
+    model.body_sameframe[~aligned] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
+
+
+def _inertial_frame(model: Any, i: int) -> tuple[Array, Array]:
+    """Centre of mass and principal axes of body ``i`` in body axes, as MuJoCo's kinematics takes them."""
+    same = mujoco.mjtSameFrame(int(model.body_sameframe[i]))
+    turned = same not in (mujoco.mjtSameFrame.mjSAMEFRAME_BODY, mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
+    com = model.body_ipos[i] if same != mujoco.mjtSameFrame.mjSAMEFRAME_BODY else np.zeros(3)
+    x, y, z, w = model.body_iquat[i][[1, 2, 3, 0]] if turned else (0, 0, 0, 1)
+    return com.copy(), np.asarray(Rotation.from_quat((x, y, z, w)).as_matrix())
+
+
+def _world(model: Any) -> dict[str, Any]:
+    weightless = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
+    kind, first = model.jnt_type[model.dof_jntid], model.jnt_dofadr[model.dof_jntid]
+    moving = (kind == mujoco.mjtJoint.mjJNT_FREE) & (np.arange(model.nv) < first + 3)
+    turning = ~moving & (kind != mujoco.mjtJoint.mjJNT_HINGE) & (kind != mujoco.mjtJoint.mjJNT_SLIDE)
+    rate = model.dof_damping * model.dof_invweight0
+    return {
+        "gravity": np.zeros(3) if weightless else model.opt.gravity.copy(),
+        "dt": float(model.opt.timestep),
+        "velocity_limit": np.inf,
+        "linear_damping": float(rate[moving].max(initial=0.0)),
+        "angular_damping": float(rate[turning].max(initial=0.0)),
+    }

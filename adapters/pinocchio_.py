@@ -1,0 +1,231 @@
+"""Pinocchio: its equations of motion, stepped by the integrators of ``pinocchio_schemes``."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any, ClassVar
+
+import numpy as np
+import pinocchio as pin
+
+from ..reference.checked import Array
+from ..scenarios.body import WIDTHS, Body, Joint
+from ..scenarios.scene import FEATURES, Scene
+from .engine import EngineError, Scheme, Setup, State
+from .pinocchio_json import model_json
+from .pinocchio_schemes import Advance, Mechanism, implicit_gyroscopic, rkmk4, semi_implicit_euler
+
+_ADVANCE: dict[str, Advance] = {
+    "semi-implicit Euler": semi_implicit_euler,
+    "implicit gyroscopic": implicit_gyroscopic,
+    "RKMK4": rkmk4,
+}
+
+
+class Pinocchio:
+    """Pinocchio behind the calls of ``Engine``."""
+
+    name: ClassVar[str] = "pinocchio"
+    schemes: ClassVar[tuple[Scheme, ...]] = (
+        Scheme("semi-implicit Euler", 1, "semi-implicit Euler", {}),
+        Scheme("implicit gyroscopic", 1, "implicit gyroscopic", {}),
+        Scheme("RKMK4", 4, "RKMK4", {}),
+    )
+    features: ClassVar[frozenset[str]] = frozenset(FEATURES)
+    settings: ClassVar[dict[str, str]] = {
+        "integrators": "Poinsot's own: Pinocchio gives accelerations, and q ⊕ dq",
+        "free bodies": "a translation and then a ball joint, with the velocity in world axes "
+        "(a FreeFlyer's, in body axes, is another and worse scheme)",
+        "springs and dampers": "joint forces of ours, taken where the scheme takes its accelerations",
+    }
+
+    @staticmethod
+    def version() -> str:
+        """Version of the installed engine."""
+        return str(pin.__version__)
+
+    def build(self, scene: Scene, scheme: Scheme, dt: float) -> None:
+        """Build ``scene`` at its initial state."""
+        self._scene, self._dt, self._steps = scene, dt, 0
+        self._advance = _ADVANCE[scheme.name]
+        self._model, self._frames, joints = _model(scene)
+        self._data = self._model.createData()
+        self._locate(joints)
+        self._mechanism = self._described_to_schemes()
+        self._position, self._velocity = self._ours_to_pinocchio(scene.q0, scene.v0)
+
+    def step(self, n: int) -> None:
+        """Advance by ``n`` steps of the scheme."""
+        self._position, self._velocity = self._advance(
+            self._mechanism, self._position, self._velocity, self._dt, n
+        )
+        self._steps += n
+
+    def state(self) -> State:
+        """Where everything is now. Raises ``EngineError`` if a number is not finite."""
+        q, v = self._position, self._velocity
+        if not (np.isfinite(q).all() and np.isfinite(v).all()):
+            raise EngineError(f"Pinocchio left the finite numbers within {self._steps} steps of {self._dt} s")
+        pin.forwardKinematics(self._model, self._data, q, v)
+        bodies = [self._body_state(joint, centre) for joint, centre in self._centres]
+        position, quaternion, velocity, omega = (np.array(part) for part in zip(*bodies, strict=True))
+        return State(position, quaternion, velocity, omega, q[self._scalar_q], v[self._scalar_v])
+
+    def readback(self) -> Setup:
+        """How Pinocchio is set up, by its own account; springs, dampers and dt are our integrators'."""
+        values: dict[str, Any] = {
+            "gravity": self._model.gravity.linear.copy(),
+            "dt": self._dt,
+            "velocity_limit": np.inf,
+            "linear_damping": 0.0,
+            "angular_damping": 0.0,
+        }
+        for body, frame in zip(self._scene.bodies, self._frames, strict=True):
+            inertia = self._moved(frame)
+            values[f"body/{body.name}/mass"] = float(inertia.mass)
+            values[f"body/{body.name}/center_of_mass"] = inertia.lever.copy()
+            values[f"body/{body.name}/inertia"] = inertia.inertia.copy()
+        for i, joint in enumerate(self._scene.scalar_joints):
+            values[f"joint/{joint.name}/stiffness"] = float(self._stiffness[i])
+            values[f"joint/{joint.name}/damping"] = float(self._damping[i])
+        return Setup(values)
+
+    def acceleration(self, q: Array, v: Array) -> Array:
+        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``."""
+        position, velocity = self._ours_to_pinocchio(q, v)
+        force = self._mechanism.force(position, velocity)
+        return np.asarray(pin.aba(self._model, self._data, position, velocity, force)[self._v])
+
+    def model_text(self) -> tuple[str, str]:
+        """The model as JSON, every joint and body with every digit; a URDF could not hold ball joints."""
+        springs = zip(self._scalar_v.tolist(), self._stiffness.tolist(), self._damping.tolist(), strict=True)
+        return "model.json", model_json(self._model, self._frames, list(springs), self._dt)
+
+    def close(self) -> None:
+        """Let go of the model."""
+        for name in ("_model", "_data", "_frames", "_centres", "_mechanism"):
+            self.__dict__.pop(name, None)
+
+    def _locate(self, joints: list[int]) -> None:
+        """Note where the scene's bodies and coordinates lie: Pinocchio's joints are sorted depth first."""
+        model, places = self._model, list(zip(self._scene.joints, joints, strict=True))
+        scalar = [i for joint, i in places if joint.kind in ("hinge", "slide")]
+        self._q = np.array(
+            [model.idx_qs[i] + k for joint, i in places for k in range(WIDTHS[joint.kind][0])], int
+        )
+        self._v = np.array(
+            [model.idx_vs[i] + k for joint, i in places for k in range(WIDTHS[joint.kind][1])], int
+        )
+        self._scalar_q = np.array([model.idx_qs[i] for i in scalar], int)
+        self._scalar_v = np.array([model.idx_vs[i] for i in scalar], int)
+        self._centres = [
+            (frame.parentJoint, frame.placement * pin.SE3(np.eye(3), frame.inertia.lever))
+            for frame in self._frames
+        ]
+
+    def _ours_to_pinocchio(self, q: Any, v: Any) -> tuple[Array, Array]:
+        position, velocity = np.empty(self._model.nq), np.empty(self._model.nv)
+        position[self._q], velocity[self._v] = q, v
+        return position, velocity
+
+    def _described_to_schemes(self) -> Mechanism:
+        model, data, scalar = self._model, self._data, self._scene.scalar_joints
+        self._stiffness = np.array([joint.stiffness for joint in scalar])
+        self._damping = np.array([joint.damping for joint in scalar])
+        force = _spring_force(self._stiffness, self._damping, self._scalar_q, self._scalar_v, model.nv)
+        damping, rest = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
+        damping[self._scalar_v, self._scalar_v] = self._damping
+
+        def linearised(q: Array, v: Array) -> tuple[Array, Array, Array]:
+            pin.computeRNEADerivatives(model, data, q, v, rest)
+            return data.M, force(q, v) - data.tau, data.dtau_dv + damping
+
+        balls = [int(model.idx_vs[i]) for i in range(1, model.njoints) if model.nqs[i] == 4]
+        return Mechanism(
+            force, partial(pin.aba, model, data), partial(pin.integrate, model), linearised, balls
+        )
+
+    def _body_state(self, joint: int, centre: Any) -> tuple[Array, Array, Array, Array]:
+        """Position, quaternion, velocity and ω of a body; ``centre`` has its axes at its centre of mass."""
+        place, motion = self._data.oMi[joint] * centre, centre.actInv(self._data.v[joint])
+        turn = place.rotation
+        return place.translation, pin.Quaternion(turn).coeffs(), turn @ motion.linear, motion.angular
+
+    def _moved(self, frame: Any) -> Any:
+        """Inertia of one body, once the bodies of its joint are seen to add up to what Pinocchio moves."""
+        joint = frame.parentJoint
+        total = pin.Inertia.Zero()
+        for other in self._frames:
+            if other.parentJoint == joint:
+                total += other.placement.act(other.inertia)
+        if not total.isApprox(self._model.inertias[joint], 1e-12):
+            raise EngineError(f"Pinocchio moves other masses with joint {joint} than the bodies it was given")
+        return frame.inertia
+
+
+def _model(scene: Scene) -> tuple[Any, list[Any], list[int]]:
+    """The model, the frame of each of the scene's bodies and the number of each of its joints."""
+    model, frames, numbers = pin.Model(), dict[str | None, Any](), dict[str, int]()
+    model.name = scene.full_name
+    model.gravity = pin.Motion(np.array(scene.gravity), np.zeros(3))
+    for body in _depth_first(scene.bodies):
+        parent = frames.get(body.parent)
+        at, place = (parent.parentJoint, parent.placement) if parent else (0, pin.SE3.Identity())
+        place = place * pin.XYZQUATToSE3(np.array([*body.position, *body.quaternion]))
+        for joint in body.joints:
+            at, place = _add_joint(model, at, place, joint, numbers)
+        inertia = pin.Inertia(body.mass, np.array(body.center_of_mass), body.inertia_array)
+        frames[body.name] = pin.Frame(body.name, at, place, pin.FrameType.BODY, inertia)
+        model.addFrame(frames[body.name])
+    return (
+        model,
+        [frames[body.name] for body in scene.bodies],
+        [numbers[joint.name] for joint in scene.joints],
+    )
+
+
+def _add_joint(model: Any, parent: int, place: Any, joint: Joint, numbers: dict[str, int]) -> tuple[int, Any]:
+    """Add a joint, and note its number; several on one body carry nothing but each other."""
+    if joint.kind == "free":
+        parent = model.addJoint(parent, pin.JointModelTranslation(), place, f"{joint.name}, translation")
+        last = model.addJoint(parent, pin.JointModelSpherical(), pin.SE3.Identity(), joint.name)
+        numbers[joint.name] = parent
+    else:
+        last = numbers[joint.name] = model.addJoint(parent, _joint_model(joint), place, joint.name)
+    return last, pin.SE3.Identity()
+
+
+def _joint_model(joint: Joint) -> Any:
+    if joint.kind == "ball":
+        return pin.JointModelSpherical()
+    make = {
+        "hinge": (pin.JointModelRX, pin.JointModelRY, pin.JointModelRZ, pin.JointModelRevoluteUnaligned),
+        "slide": (pin.JointModelPX, pin.JointModelPY, pin.JointModelPZ, pin.JointModelPrismaticUnaligned),
+    }[joint.kind]
+    return make[joint.axis.index(1.0)]() if 1.0 in joint.axis else make[3](*joint.axis)
+
+
+def _depth_first(bodies: tuple[Body, ...]) -> Iterator[Body]:
+    """Bodies such that each subtree is unbroken: else Pinocchio's mass matrix is silently wrong."""
+    waiting = [body for body in reversed(bodies) if body.parent is None]
+    while waiting:
+        yield (body := waiting.pop())
+        waiting += [child for child in reversed(bodies) if child.parent == body.name]
+
+
+def _spring_force(
+    stiffness: Array, damping: Array, q_places: Array, v_places: Array, nv: int
+) -> Callable[[Array, Array], Array]:
+    """−k q − c q̇ as a function of q and v, in an array that the next call overwrites."""
+    tau, k, c = np.zeros(nv), -stiffness, -damping
+
+    def force(q: Array, v: Array) -> Array:
+        tau[v_places] = k * q[q_places] + c * v[v_places]
+        return tau
+
+    def spring(q: Array, v: Array) -> Array:
+        tau[v_places] = k * q[q_places]
+        return tau
+
+    if c.any():
+        return force
+    return spring if k.any() else lambda q, v: tau
