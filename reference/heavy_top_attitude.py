@@ -1,114 +1,48 @@
-"""Attitude and rates of a heavy symmetric top as quotients of theta functions.
+"""Attitude and rates of a heavy symmetric top that nutates, at any times: quotients of theta functions.
 
-The attitude's Cayley–Klein parameters α = w + iz, β = x + iy and Ω = Ω1 + iΩ2, seen from the axes of
-`heavy_top_roots`, obey
-
-    α̇ = ½(iaα − βΩ̄),    β̇ = ½(αΩ − iaβ),    Ω̇ = kᾱβ
-
-and |α|² = (2 − d)/2, |β|² = d/2, |Ω|² = k(d − dE) are linear in d = d1 − (d1 − d2) sn²u, u = u0 + pt,
-p = ½√(k(d1 − d3)). So each of the three is, but for a constant, θ_j(u + ih)/θ4(u) · exp(iλt): j = 1 for α,
-which is least at the bottom u = 0, and j = 2 for β and Ω. Where the modulus vanishes gives the height h,
-and λ makes the rate of the argument right at one point, where it is
-
-    (2a + c)/(2(2 − d)) for α,    c/(2d) for β,    −(c + ad)/(2(d − dE)) for Ω.
-
-Source: Klein & Sommerfeld, *Über die Theorie des Kreisels*, ch. VI (α, β, γ, δ as elliptic functions of
-the second kind); Goldstein, *Classical Mechanics*, § 4.5 (the parameters) and § 5.7 (the cubic).
+`heavy_top_case` says which, and holds what does not depend on time. Here all is in double precision, but
+for the phases, which are reduced in extended precision first.
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import elliptic
 from .checked import Array
 from .double_double import affine, fraction
-from .heavy_top_roots import Constants, Roots, real, roots
+from .heavy_top_case import Case, Factor, case
+from .heavy_top_constants import Constants, real
+from .heavy_top_steady import ComplexArray, Triple, steady
 from .precise import mp
 from .theta import Lattice, Waves, theta, theta_above, waves
 
-ComplexArray = npt.NDArray[np.complex128]
+#: A modulus m below which the axis nutates by less than any double shows.
+_UNSEEN = 1e-250
 
-#: A u so small that no function of it differs from its first term [1].
+#: A u so small that no function of it differs from its first term.
 _SOON = 1e-200
 
-#: α, β and Ω, one after the other, each (n,) complex.
-Triple = tuple[ComplexArray, ComplexArray, ComplexArray]
 
+def nutating(fixed: Constants, now: Sequence[complex], t: Array) -> Triple:
+    """α = w + iz, β = x + iy, Ω1 + iΩ2 (n,) at t (n,) in the body's axes; ``now`` holds them at t = 0.
 
-class Factor(NamedTuple):
-    """One of α, β, Ω: the number of its theta function, the height of its zero, λ [rad/s], and its size.
-
-    ``size`` is what to multiply by in the two halves of a swing: near the bottom, and near the top.
+    For a motion with gravity that is not steady.
     """
-
-    number: int
-    height: Any
-    rate: Any
-    size: tuple[float, float]
-
-
-class Case(NamedTuple):
-    """All of a motion that does not depend on time: u = start + rate·t, and α, β, Ω."""
-
-    modulus: elliptic.Modulus
-    start: Any
-    rate: Any
-    factors: tuple[Factor, Factor, Factor]
-
-
-def case(motion: Constants) -> Case:
-    """The case of a motion with k > 0 that is not steady."""
-    found = roots(motion)
-    k, a, c = (real(v) for v in motion[:3])
-    modulus = elliptic.modulus(found.d12 / found.d13, found.d23 / found.d13)
-    p = mp.sqrt(k * found.d13) / 2
-    below, above, far = found.from_start
-    start = _first_kind(below / found.d12, above / found.d12, far / found.d13)
-    lowest, highest = found.d1 / 2, found.from_hanging[1] / 2
-    rest = found.from_rest[0]
-    # For each: |·|² and the rate of its argument where that is taken, the height, and the sense of turning.
-    at_top = (1, highest, (2 * a + c) / (4 * highest), _alpha_height(found), 2 * motion.a + motion.c)
-    at_bottom = (2, lowest, c / (4 * lowest), _height(found, found.d1, *found.from_upright), motion.c)
-    rates = (
-        2,
-        k * rest,
-        -(c + a * found.d1) / (2 * rest),
-        _height(found, *found.from_rest),
-        _at_rest(motion),
-    )
-    alpha, beta, Omega = (_factor(modulus.lattice, p, *each) for each in (at_top, at_bottom, rates))
-    return Case(modulus, start if motion.rise > 0 else -start, p, (alpha, beta, Omega))
-
-
-def values(case: Case, now: Sequence[complex], turning: Sequence[Any], t: Array) -> Triple:
-    """α, β, Ω (n,) at t (n,), which are ``now`` at t = 0, turned on by ``turning``·t [rad/s]."""
-    shapes = _shapes(case, turning, t, elliptic.phase(case.modulus, case.rate, case.start, t))
-    for shape, unit in zip(shapes, _fitting(case, now), strict=True):
-        shape *= unit
-    return shapes[0], shapes[1], shapes[2]
-
-
-def _fitting(case: Case, now: Sequence[complex]) -> list[complex]:
-    """Unit factors that make α, β, Ω what they are at t = 0; a derivative tells where one is 0 there."""
-    alpha, beta, across = now
-    rates = (-beta * across.conjugate(), alpha * across, alpha.conjugate() * beta)
-    start, origin = np.zeros(1), elliptic.phase(case.modulus, case.rate, case.start, np.zeros(1))
-    after = origin._replace(remainder=(np.array([_SOON]), start))
-    here, soon = (_shapes(case, (0, 0, 0), start, phase) for phase in (origin, after))
-    wanted = [value or rate for value, rate in zip(now, rates, strict=True)]
-    found = [complex((h if value else s)[0]) for value, h, s in zip(now, here, soon, strict=True)]
-    return [_unit(w) / _unit(f) for w, f in zip(wanted, found, strict=True)]
-
-
-def _unit(z: complex) -> complex:
-    return z / abs(z)
+    this, spin = case(fixed), real(fixed.spin)
+    if this.modulus.m < _UNSEEN:
+        return steady(fixed, now, t)
+    phase = elliptic.phase(this.modulus, this.rate, this.start, t)
+    shapes = _shapes(this, (spin / 2, -spin / 2, -spin), t, phase)
+    alpha, beta, Omega = (shape * unit for shape, unit in zip(shapes, _fitting(this, now), strict=True))
+    return alpha, beta, Omega
 
 
 def _shapes(case: Case, turning: Sequence[Any], t: Array, phase: elliptic.Phase) -> list[ComplexArray]:
+    """The three functions but for a constant unit factor each, turned on by ``turning``·t [rad/s]."""
     lattice = case.modulus.lattice
+    # Half a period of sn on, all of θ1, θ2 change sign.
     flipped = np.where(phase.quarter % 4 >= 2, -1.0, 1.0)
     results = [
         flipped * _turn(factor.rate + extra, t, lattice, factor.height, phase.remainder[0])
@@ -116,6 +50,8 @@ def _shapes(case: Case, turning: Sequence[Any], t: Array, phase: elliptic.Phase)
     ]
     for top in (False, True):
         here = (phase.quarter % 2 == 1) == top
+        if not here.any():
+            continue
         w = waves(lattice, (phase.remainder[0][here], phase.remainder[1][here]))
         below = theta(lattice, 3 if top else 4, w)
         for result, factor in zip(results, case.factors, strict=True):
@@ -132,6 +68,7 @@ def _numerator(lattice: Lattice, factor: Factor, top: bool, w: Waves) -> Complex
 
 
 def _turn(rate: Any, t: Array, lattice: Lattice, height: Any, remainder: Array) -> ComplexArray:
+    """exp(iλt), and the hyperbolic form's Gaussian, which goes round by −π·height·u/(2KK′)."""
     circle = 2 * mp.pi
     _, rest = fraction(affine(rate / circle, 0, t))
     angle = float(circle) * rest[0]
@@ -140,47 +77,18 @@ def _turn(rate: Any, t: Array, lattice: Lattice, height: Any, remainder: Array) 
     return np.asarray(np.cos(angle) + 1j * np.sin(angle))
 
 
-def _factor(lattice: Lattice, p: Any, index: int, square: Any, rate: Any, height: Any, sign: Any) -> Factor:
-    """θ_j from its modulus squared and its rate of turning where θ2 stands in its numerator.
-
-    The height is turned against the argument: above the real axis both θ1 and θ2 turn backwards.
-    """
-    height = -height if sign > 0 else height
-    x, _ = theta_above(lattice, 2, height, _origin(lattice))
-    below = theta(lattice, 4 if index == 2 else 3, _origin(lattice))
-    size = float(mp.sqrt(square)) * float(below[0] / x[0])
-    # In the hyperbolic form θ1 and θ2 are scaled unlike θ3 and θ4, by 2q′^¼.
-    other = size * float(4 * mp.sqrt(lattice.nome)) if lattice.hyperbolic and index == 2 else size
-    return Factor(index, height, rate - p * elliptic.turn_rate(lattice, 2, height), (size, other))
-
-
-def _origin(lattice: Lattice) -> Waves:
-    return waves(lattice, (np.zeros(1), np.zeros(1)))
+def _fitting(case: Case, now: Sequence[complex]) -> list[complex]:
+    """Unit factors that make α, β, Ω what they are at t = 0; a derivative tells where one is 0 there."""
+    alpha, beta, across = now
+    rates = (-beta * across.conjugate(), alpha * across, alpha.conjugate() * beta)
+    start, origin = np.zeros(1), elliptic.phase(case.modulus, case.rate, case.start, np.zeros(1))
+    here = _shapes(case, (0, 0, 0), start, origin)
+    if not all(now):
+        after = _shapes(case, (0, 0, 0), start, origin._replace(remainder=(np.array([_SOON]), start)))
+        here = [h if value else a for value, h, a in zip(now, here, after, strict=True)]
+    wanted = [value or rate for value, rate in zip(now, rates, strict=True)]
+    return [_unit(w) / _unit(complex(h[0])) for w, h in zip(wanted, here, strict=True)]
 
 
-def _first_kind(sn2: Any, cn2: Any, dn2: Any) -> Any:
-    """U within [0, K] from the squares of its three functions (DLMF § 19.25(v))."""
-    return mp.sqrt(sn2) * mp.elliprf(cn2, dn2, 1)
-
-
-def _alpha_height(found: Roots) -> Any:
-    """Where d = 2, at u = ih: sn²(h | 1 − m) = (2 − d1)/(2 − d2)."""
-    near, middle, far = found.from_hanging
-    return _first_kind(near / middle, found.d12 / middle, found.d12 * far / (middle * found.d13))
-
-
-def _height(found: Roots, from_bottom: Any, from_top: Any, from_third: Any) -> Any:
-    """Where d = x, given d1 − x, d2 − x and x − d3, at u = K + ih.
-
-    On the separatrix d2 = x = d3, and the height no longer matters.
-    """
-    if not from_top:
-        return mp.mpf(0)
-    sn2 = from_top * found.d13 / (from_bottom * found.d23)
-    cn2 = from_third * found.d12 / (from_bottom * found.d23)
-    return _first_kind(sn2, cn2, found.d12 / from_bottom)
-
-
-def _at_rest(motion: Constants) -> Any:
-    """The sign of Ω's turning: that of −(c + a dE)."""
-    return motion.a * motion.e - motion.c * motion.k
+def _unit(z: complex) -> complex:
+    return z / abs(z)
