@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import elliptic
-from .checked import Array, finite, number, positive, principal_moments, unit_quaternion
+from .checked import Array, finite, number, positive, principal_moments, times, unit_quaternion
 from .double_double import turning
 from .polhode import Polhode, direction, in_body_axes, is_point, polhode
 from .precise import mp
@@ -36,7 +36,7 @@ def motion(
 
     Returns
     -------
-    q : (n, 4) unit quaternions, scalar last, body to world, of either sign [1]
+    q : (n, 4) unit quaternions, scalar last, body to world, changing without a jump from q0 [1]
     omega : (n, 3) angular velocity, body axes [rad/s]
 
     Raises
@@ -51,7 +51,7 @@ def motion(
     moments = principal_moments("moments", moments)
     q0 = unit_quaternion("q0", q0)
     omega0 = finite("omega0", omega0, (3,))
-    t = finite("t", np.atleast_1d(finite("t", t)), (-1,))
+    t = times("t", t)
     if is_point(moments, omega0):
         return _steady(q0, omega0, t)
     curve = polhode(moments, omega0)
