@@ -68,7 +68,8 @@ class Body:
 
     ``joints`` lead from the parent (``None``: the world) to the body, the first nearest to the
     parent; none at all welds the body to it. ``position`` and ``quaternion`` place the body's
-    frame in the parent's where every joint coordinate is zero.
+    frame in the parent's where every joint coordinate is zero; a body with a free joint has no
+    such place, its coordinates say where it is.
     """
 
     name: str
@@ -96,6 +97,13 @@ class Body:
         if any(joint.kind == "free" for joint in self.joints) and (len(self.joints) > 1 or self.parent):
             raise InputError(
                 f"body {self.name!r}: a free joint must be its body's only one, and its parent the world"
+            )
+        if any(joint.kind == "free" for joint in self.joints) and (
+            any(self.position) or any(self.quaternion[:3])
+        ):
+            raise InputError(
+                f"body {self.name!r}: got position {self.position} and quaternion {self.quaternion}, expected "
+                "none: the coordinates of its free joint say where it is"
             )
 
     @property

@@ -158,6 +158,9 @@ class Scene:
         names = [body.name for body in self.bodies]
         if len(set(names)) != len(names) or not names:
             raise InputError(f"bodies: got the names {names}, expected at least one, each different")
+        joints = [joint.name for joint in self.joints]
+        if len(set(joints)) != len(joints):
+            raise InputError(f"joints: got the names {joints}, expected each different")
         for place, body in enumerate(self.bodies):
             if body.parent is not None and body.parent not in names[:place]:
                 raise InputError(
