@@ -81,14 +81,14 @@ class MuJoCo:
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_comVel(model, data)
-        # MuJoCo gives a body's velocity at the centre of mass of its whole tree.
-        arm = data.xipos[bodies] - data.subtree_com[model.body_rootid[bodies]]
-        omega_world, velocity = data.cvel[bodies, :3], data.cvel[bodies, 3:]
+        speeds = np.empty((len(bodies), 6))
+        for row, body in zip(speeds, bodies, strict=True):
+            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, row, 0)
         return State(
             position=data.xipos[bodies],
             quaternion=data.xquat[bodies][:, [1, 2, 3, 0]],
-            velocity=velocity + np.cross(omega_world, arm),
-            omega=np.einsum("bji,bj->bi", data.xmat[bodies].reshape(-1, 3, 3), omega_world),
+            velocity=speeds[:, 3:],
+            omega=np.einsum("bji,bj->bi", data.xmat[bodies].reshape(-1, 3, 3), speeds[:, :3]),
             joint_position=data.qpos[self._scalar_q],
             joint_velocity=data.qvel[self._scalar_v],
         )

@@ -52,6 +52,7 @@ class Pinocchio:
         self._locate(joints)
         self._mechanism = self._described_to_schemes()
         self._position, self._velocity = self._ours_to_pinocchio(scene.q0, scene.v0)
+        self._position = pin.normalize(self._model, self._position)
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps of the scheme."""
@@ -84,9 +85,9 @@ class Pinocchio:
             values[f"body/{body.name}/mass"] = float(inertia.mass)
             values[f"body/{body.name}/center_of_mass"] = inertia.lever.copy()
             values[f"body/{body.name}/inertia"] = inertia.inertia.copy()
-        for i, joint in enumerate(self._scene.scalar_joints):
-            values[f"joint/{joint.name}/stiffness"] = float(self._stiffness[i])
-            values[f"joint/{joint.name}/damping"] = float(self._damping[i])
+        for joint, (_, stiffness, damping) in zip(self._scene.scalar_joints, self._springs(), strict=True):
+            values[f"joint/{joint.name}/stiffness"] = stiffness
+            values[f"joint/{joint.name}/damping"] = damping
         return Setup(values)
 
     def acceleration(self, q: Array, v: Array) -> Array:
@@ -97,8 +98,7 @@ class Pinocchio:
 
     def model_text(self) -> tuple[str, str]:
         """The model as JSON, every joint and body with every digit; a URDF could not hold ball joints."""
-        springs = zip(self._scalar_v.tolist(), self._stiffness.tolist(), self._damping.tolist(), strict=True)
-        return "model.json", model_json(self._model, self._frames, list(springs), self._dt)
+        return "model.json", model_json(self._model, self._frames, self._springs(), self._dt)
 
     def close(self) -> None:
         """Let go of the model."""
@@ -128,21 +128,25 @@ class Pinocchio:
         return position, velocity
 
     def _described_to_schemes(self) -> Mechanism:
-        model, data, scalar = self._model, self._data, self._scene.scalar_joints
-        self._stiffness = np.array([joint.stiffness for joint in scalar])
-        self._damping = np.array([joint.damping for joint in scalar])
-        force = _spring_force(self._stiffness, self._damping, self._scalar_q, self._scalar_v, model.nv)
-        damping, rest = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
-        damping[self._scalar_v, self._scalar_v] = self._damping
+        model, data, rest = self._model, self._data, np.zeros(self._model.nv)
+        self._pull, self._drag = np.zeros((model.nv, model.nq)), np.zeros((model.nv, model.nv))
+        for joint, i, j in zip(self._scene.scalar_joints, self._scalar_v, self._scalar_q, strict=True):
+            self._pull[i, j], self._drag[i, i] = -joint.stiffness, -joint.damping
+        force = _spring_force(self._pull, self._drag)
 
         def linearised(q: Array, v: Array) -> tuple[Array, Array, Array]:
             pin.computeRNEADerivatives(model, data, q, v, rest)
-            return data.M, force(q, v) - data.tau, data.dtau_dv + damping
+            return data.M, force(q, v) - data.tau, data.dtau_dv - self._drag
 
         balls = [int(model.idx_vs[i]) for i in range(1, model.njoints) if model.nqs[i] == 4]
         return Mechanism(
             force, partial(pin.aba, model, data), partial(pin.integrate, model), linearised, balls
         )
+
+    def _springs(self) -> list[tuple[int, float, float]]:
+        """Place in v, stiffness and damping of each hinge and slide, as the integrators use them."""
+        places = zip(self._scalar_v, self._scalar_q, strict=True)
+        return [(int(i), -float(self._pull[i, j]), -float(self._drag[i, i])) for i, j in places]
 
     def _body_state(self, joint: int, centre: Any) -> tuple[Array, Array, Array, Array]:
         """Position, quaternion, velocity and ω of a body; ``centre`` has its axes at its centre of mass."""
@@ -170,7 +174,8 @@ def _model(scene: Scene) -> tuple[Any, list[Any], list[int]]:
     for body in _depth_first(scene.bodies):
         parent = frames.get(body.parent)
         at, place = (parent.parentJoint, parent.placement) if parent else (0, pin.SE3.Identity())
-        place = place * pin.XYZQUATToSE3(np.array([*body.position, *body.quaternion]))
+        turn = pin.Quaternion(*np.roll(body.quaternion, 1)).normalized()
+        place = place * pin.SE3(turn, np.array(body.position))
         for joint in body.joints:
             at, place = _add_joint(model, at, place, joint, numbers)
         inertia = pin.Inertia(body.mass, np.array(body.center_of_mass), body.inertia_array)
@@ -212,20 +217,9 @@ def _depth_first(bodies: tuple[Body, ...]) -> Iterator[Body]:
         waiting += [child for child in reversed(bodies) if child.parent == body.name]
 
 
-def _spring_force(
-    stiffness: Array, damping: Array, q_places: Array, v_places: Array, nv: int
-) -> Callable[[Array, Array], Array]:
-    """−k q − c q̇ as a function of q and v, in an array that the next call overwrites."""
-    tau, k, c = np.zeros(nv), -stiffness, -damping
-
-    def force(q: Array, v: Array) -> Array:
-        tau[v_places] = k * q[q_places] + c * v[v_places]
-        return tau
-
-    def spring(q: Array, v: Array) -> Array:
-        tau[v_places] = k * q[q_places]
-        return tau
-
-    if c.any():
-        return force
-    return spring if k.any() else lambda q, v: tau
+def _spring_force(pull: Array, drag: Array) -> Callable[[Array, Array], Array]:
+    """``pull`` q + ``drag`` v, in an array that the next call overwrites."""
+    tau, dot = np.zeros(len(pull)), np.dot
+    if drag.any():
+        return lambda q, v: dot(pull, q, tau) + dot(drag, v)
+    return (lambda q, v: dot(pull, q, tau)) if pull.any() else (lambda q, v: tau)
