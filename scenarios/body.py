@@ -102,8 +102,8 @@ class Body:
             any(self.position) or any(self.quaternion[:3])
         ):
             raise InputError(
-                f"body {self.name!r}: got position {self.position} and quaternion {self.quaternion}, expected "
-                "none: the coordinates of its free joint say where it is"
+                f"body {self.name!r}: got position {self.position} and quaternion {self.quaternion}, "
+                "expected none: the coordinates of its free joint say where it is"
             )
 
     @property
