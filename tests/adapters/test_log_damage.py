@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
-from poinsot.adapters import log
+from poinsot.adapters import log, log_rows
 from poinsot.adapters.log_container import Container
 from poinsot.adapters.log_intact import fault
 from poinsot.reference.errors import InputError, PoinsotError
@@ -163,6 +163,20 @@ def test_samples_out_of_order_or_missing_are_refused(path, make_cell, monkeypatc
     monkeypatch.setattr(
         Container, "rows", lambda self, channel, times, part: rows(self, channel, times[wrong], part[wrong])
     )
+    log.write(path, *make_cell(1, 0, 8), {})
+    assert "not laid out as Poinsot writes them" in _reason(path, path.read_bytes())
+
+
+@pytest.mark.parametrize("part", ["opcode", "length", "channel", "position tag"])
+def test_messages_laid_out_otherwise_are_refused(path, make_cell, monkeypatch, part):
+    encode = log_rows.encode
+
+    def spoilt(*arguments):
+        rows = encode(*arguments)
+        rows[part][-1] += 1
+        return rows
+
+    monkeypatch.setattr(log_rows, "encode", spoilt)
     log.write(path, *make_cell(1, 0, 8), {})
     assert "not laid out as Poinsot writes them" in _reason(path, path.read_bytes())
 
