@@ -83,4 +83,6 @@ def _rayleigh(V: Array, A: Long) -> Long:
     eigenvalues = np.einsum("ik,ij,jk->k", A, V, A)
     # What a relative change of a few eps in the entries of V can do to aᵀVa.
     rounding = len(V) * _EPS * np.einsum("ik,ij,jk->k", np.abs(A), np.abs(V), np.abs(A))
+    # And what the rounding of a itself can do to the 0 of a direction that V does not see.
+    rounding += (len(V) * np.finfo(np.longdouble).eps * np.abs(A).max(axis=0)) ** 2 * np.abs(V).max()
     return np.where(np.abs(eigenvalues) <= rounding, 0, eigenvalues)

@@ -49,7 +49,7 @@ def test_potential_energy_is_the_sum_over_springs(ends):
     T, V = bead_chain.energies(4, m, k, ends)
     stretches = list(np.diff(x))
     stretches += {"walls": [x[0], x[-1]], "wall": [x[0]], "free": [], "ring": [x[0] - x[-1]]}[ends]
-    assert x @ V @ x == pytest.approx(k * np.sum(np.square(stretches)), rel=1e-14)
+    assert x @ V @ x == pytest.approx(k * np.sum(np.square(stretches)), rel=1e-14, abs=0)
     np.testing.assert_array_equal(T, m * np.eye(4))
 
 

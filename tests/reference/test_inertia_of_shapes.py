@@ -48,7 +48,7 @@ def revolved(*pieces):
 
 def agree(solid, points, weights):
     volume, centre, inertia = measured(points, weights)
-    assert solid.volume == pytest.approx(volume, rel=ROUNDING)
+    assert solid.volume == pytest.approx(volume, rel=ROUNDING, abs=0)
     size = np.sqrt(np.abs(inertia).max())
     np.testing.assert_allclose(solid.centre, centre, rtol=0, atol=ROUNDING * size)
     np.testing.assert_allclose(solid.inertia, inertia, rtol=0, atol=ROUNDING * size**2)
@@ -81,13 +81,13 @@ def test_hollow_sphere(b, share):
 def test_thin_shell_is_exact():
     b, t = 0.3, 1e-13
     shell = shapes.hollow_sphere(b - t, b)
-    assert shell.inertia[0, 0] == pytest.approx(2 / 3 * b**2, rel=1e-12)
-    assert shell.volume == pytest.approx(4 * np.pi * b**2 * (b - (b - t)), rel=1e-12)
+    assert shell.inertia[0, 0] == pytest.approx(2 / 3 * b**2, rel=1e-12, abs=0)
+    assert shell.volume == pytest.approx(4 * np.pi * b**2 * (b - (b - t)), rel=1e-12, abs=0)
 
 
 def test_sphere_without_a_hollow():
     whole, hollow = shapes.sphere(0.7), shapes.hollow_sphere(0, 0.7)
-    assert hollow.volume == pytest.approx(whole.volume, rel=1e-15)
+    assert hollow.volume == pytest.approx(whole.volume, rel=1e-15, abs=0)
     np.testing.assert_allclose(hollow.inertia, whole.inertia, rtol=1e-15)
 
 
