@@ -202,7 +202,7 @@ def _add_joint(body: Any, joint: Joint) -> Any:
 
 
 def _principal_axes(inertia: Array) -> tuple[Array, tuple[float, ...]]:
-    """Principal moments and the turn to their axes; ours, as MuJoCo's drops what is below 1e-12 kg m²."""
+    """Principal moments and the turn to their axes; until 3.14 MuJoCo found them only to 1e-6."""
     if np.array_equal(inertia, np.diag(np.diag(inertia))):
         moments, iquat = np.diag(inertia).copy(), _NO_TURN
     else:
