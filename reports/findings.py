@@ -1,0 +1,86 @@
+"""A sentence for everything in a run that is not a pass; what is said of many places is said once."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .digest import Column, Digest, Group, Record
+from .results import GRAVITY
+from .verdict import Status
+from .wording import steps
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A sentence, what it is about (check, observable, steps; may be empty) and where it is true."""
+
+    status: Status
+    sentence: str
+    about: str
+    groups: tuple[Group, ...]
+    where: str
+
+
+def findings(digest: Digest) -> list[Finding]:
+    """Everything that is not a pass, worst first, then in the order of the matrix."""
+    merged: dict[tuple[Status, str, str], list[Group]] = {}
+    for group in digest.groups.values():
+        for key in _told(group):
+            merged.setdefault(key, []).append(group)
+    ordered = sorted(merged.items(), key=lambda item: GRAVITY.index(item[0][0]))
+    return [
+        Finding(status, sentence, about, tuple(groups), _where(digest, groups))
+        for (status, about, sentence), groups in ordered
+    ]
+
+
+def _not_passes(group: Group) -> Iterator[tuple[Status, str, Record, float]]:
+    """Status, subject, the record that says so, and the step, of every cell and verdict."""
+    for cell in group.cells:
+        verdicts = [verdict for verdict in cell["verdicts"] if verdict["status"] != Status.PASS.value]
+        for verdict in verdicts:
+            about = f"{verdict['check']} of {verdict['observable']}"
+            yield Status(verdict["status"]), about, verdict, cell["dt"]
+        # A cell's status only repeats its verdicts', unless it says something or has none.
+        if cell["status"] != Status.PASS.value and (cell["message"] or not verdicts):
+            yield Status(cell["status"]), "", cell, cell["dt"]
+
+
+def _told(group: Group) -> Iterator[tuple[Status, str, str]]:
+    """Status, subject and sentence: a check that was measured at many steps speaks where it is worst."""
+    same: dict[tuple[Status, str, str], list[tuple[Record, float]]] = {}
+    for status, about, record, dt in _not_passes(group):
+        apart = "" if record.get("measured") is not None else record["message"]
+        same.setdefault((status, about, apart), []).append((record, dt))
+    for (status, about, _), found in same.items():
+        worst = max((record for record, _ in found), key=_excess)["message"]
+        here = [dt for record, dt in found if record["message"] == worst]
+        rest = [dt for record, dt in found if record["message"] != worst]
+        every = len(here) == len(group.cells)
+        parts = [about, "" if every else steps(here), f"also at {steps(rest)}" if rest else ""]
+        yield status, ", ".join(part for part in parts if part), worst or status.sentence
+
+
+def _excess(record: Record) -> float:
+    """How far beyond its allowance a verdict is; records without numbers come last."""
+    measured, allowed = record.get("measured"), record.get("allowed")
+    return measured / allowed if measured is not None and allowed else -math.inf
+
+
+def _where(digest: Digest, groups: list[Group]) -> str:
+    """The places of ``groups`` in few words: whole engines and whole rows are named as such."""
+    columns_of: dict[tuple[str, ...], list[Column]] = {}
+    for column in digest.columns:
+        scenes = tuple(group.scene for group in groups if group.column is column)
+        if scenes:
+            columns_of.setdefault(scenes, []).append(column)
+    return "; ".join(
+        f"{digest.named(columns)} on {_scenes(digest, scenes)}" for scenes, columns in columns_of.items()
+    )
+
+
+def _scenes(digest: Digest, scenes: tuple[str, ...]) -> str:
+    missing = [scene for scene in digest.scenes if scene not in scenes]
+    if len(scenes) > 1 and len(missing) <= min(3, len(scenes) - 1):
+        return f"every scene but {', '.join(missing)}" if missing else "every scene"
+    return ", ".join(scenes)

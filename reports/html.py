@@ -1,0 +1,111 @@
+"""The report as one HTML file: opens offline, reads on a phone and on paper, asks for nothing."""
+
+from collections.abc import Iterable
+from functools import cache
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from jinja2 import Environment, FileSystemLoader
+from markupsafe import Markup, escape
+from plotly.offline.offline import get_plotlyjs
+
+from .digest import Column, Digest, Group, Record
+from .findings import findings
+from .plots import Motion, cost_figure, motion_figures
+from .verdict import Status
+from .wording import GLYPHS, NOT_RUN, PARTIAL, count, number, printable, steps
+
+
+def render(results: Record, motions: Iterable[Motion], out: Path) -> None:
+    """Write the report on ``results`` (the content of results.json) to the file ``out``.
+
+    ``motions`` bring the pictures: scenes of ``results``, each with trajectories of schemes that
+    ``results`` has cells of. Equal input gives equal bytes. Raises ``InputError`` if ``results``
+    has another schema.
+    """
+    digest = Digest(results)
+    pictures = {motion.scene.full_name: motion_figures(motion, digest.columns) for motion in motions}
+    text = (
+        _environment()
+        .get_template("report.html.j2")
+        .render(
+            digest=digest,
+            findings=[
+                (status, list(found)) for status, found in groupby(findings(digest), lambda f: f.status)
+            ],
+            pictures=pictures,
+            costs=_costs(digest),
+            settings=_settings(digest),
+            plotly=_library(),
+        )
+    )
+    out.write_text(text, encoding="utf-8")
+
+
+@cache
+def _library() -> Markup:
+    """plotly.js, which goes into the page once and unescaped: it is a library, not data."""
+    code: str = get_plotlyjs()  # type: ignore[no-untyped-call]  # plotly has no types
+    return Markup(code)  # noqa: S704 (see above)
+
+
+@cache
+def _environment() -> Environment:
+    """Everything printed is escaped, and made printable first."""
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent / "templates"),
+        autoescape=True,
+        finalize=lambda value: printable(value) if type(value) is str else value,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
+    environment.filters |= {
+        "number": number,
+        "count": count,
+        "steps": steps,
+        "breakable": _breakable,
+        "reference": lambda text: quote(printable(text)),
+        "verdict_rows": _verdict_rows,
+    }
+    environment.globals |= {
+        "Status": Status,
+        "GLYPHS": GLYPHS,
+        "NOT_RUN": NOT_RUN,
+        "PARTIAL": PARTIAL,
+        "OPEN": (Status.ERROR, Status.FAIL, Status.FIXED),
+    }
+    return environment
+
+
+def _breakable(name: str) -> Markup:
+    """A scene's name that may break after an underscore and before its variant."""
+    pause = Markup("<wbr>")
+    return escape(printable(name)).replace("_", "_" + pause).replace("[", pause + "[")
+
+
+def _costs(digest: Digest) -> dict[str, Any]:
+    """The figure of error against cost of each scene that has one."""
+    rows: dict[str, list[Record]] = {}
+    for row in digest.work_precision:
+        rows.setdefault(row["scene"], []).append(row)
+    return {scene: cost_figure(mine, digest.columns) for scene, mine in rows.items()}
+
+
+def _settings(digest: Digest) -> list[tuple[str, str, str]]:
+    """Every setting that a cell names, as (schemes that have it so, setting, value)."""
+    found: dict[tuple[str, str], dict[Column, None]] = {}
+    for group in digest.groups.values():
+        for cell in group.cells:
+            for name, value in cell["settings"].items():
+                found.setdefault((name, str(value)), {})[group.column] = None
+    return [(digest.named(columns), name, value) for (name, value), columns in found.items()]
+
+
+def _verdict_rows(group: Group) -> list[tuple[str, str, list[Record | None]]]:
+    """Check, observable and the verdict of each of the group's other cells, where there is one."""
+    kinds = dict.fromkeys((v["check"], v["observable"]) for cell in group.others for v in cell["verdicts"])
+    by_cell = [{(v["check"], v["observable"]): v for v in cell["verdicts"]} for cell in group.others]
+    return [(*kind, [verdicts.get(kind) for verdicts in by_cell]) for kind in kinds]
