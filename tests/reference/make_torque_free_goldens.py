@@ -206,20 +206,13 @@ def cases(rng):
                     t,
                     False,
                 )
-    for omega1, omega2, omega3 in (
-        (1, 0, 1),
-        (-1, 0, 1),
-        (1, 0.5, -1),
-        (-3, 0.25, -3),
-        (1, -2, 1),
-        (1e-3, 1, 1e-3),
+    # I1(I2 − I1)ω1² = I3(I3 − I2)ω3² holds in exact arithmetic for 1, 2, 2.25 and ω1 : ω3 = 3 : 4.
+    kick = 2.0**-10
+    for omega in (
+        *([3.0, 0.0, 4.0], [-3.0, 0.0, 4.0], [3.0, 0.5, -4.0], [-0.75, 0.25, -1.0]),
+        *([1.5, -2.0, 2.0], [3 * kick, 1.0, 4 * kick]),
     ):
-        yield (
-            "on the separatrix",
-            *shuffled([1.0, 2.0, 3.0], [float(omega1), float(omega2), float(omega3)]),
-            17.0,
-            False,
-        )
+        yield "on the separatrix", *shuffled([1.0, 2.0, 2.25], omega), 17.0, False
     for _ in range(14):
         moments = [1.0, 1.0 - rng.choice([0.0, 1e-7, 5e-7]), 1e-6]
         omega = [rng.gauss(0, 1), rng.gauss(0, 1), rng.choice([1.0, 100.0, 4000.0])]
