@@ -123,7 +123,10 @@ class Digest:
         self.command, self.started, self.seconds, self.facts = _facts(results["environment"])
         self.notes: tuple[str, ...] = tuple(results["notes"])
         self.work_precision: tuple[Record, ...] = tuple(results["work_precision"])
+        # A scene that only the cells know is shown too, without words of its own.
         self.scenes: dict[str, Record] = dict(results["scenes"])
+        for cell in self.cells:
+            self.scenes.setdefault(cell["scene"], {})
         self.columns = _columns(self.cells)
         self.groups = self._grouped()
 

@@ -149,7 +149,7 @@ def _verdict(
         "allowed": allowed,
         "unit": unit,
         "at": at,
-        "message": f"{observable}: {measured:.3g} {unit}, {compared} the {allowed:.3g} {unit} of the scheme itself",
+        "message": f"{observable}: {measured:.3g} {unit}, {compared} its {allowed:.3g} {unit}",
     }
 
 

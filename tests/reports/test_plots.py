@@ -1,0 +1,139 @@
+"""Figures as data: every number in its place, and nothing dropped without a word."""
+
+import base64
+import copy
+import json
+from dataclasses import replace
+
+import numpy as np
+import plotly.graph_objects
+import pytest
+from poinsot.reports.digest import Digest
+from poinsot.reports.plots import FAR, TRUTH_POINTS, Motion, cost_figure, motion_figures
+
+SCENE = "free_symmetric_top[oblate]"
+
+
+def figure(results, scene=SCENE):
+    rows = [row for row in results["work_precision"] if row["scene"] == scene]
+    return cost_figure(rows, Digest(results).columns)
+
+
+def view(results, observable="orientation [rad]", against="run time"):
+    (found,) = [
+        v for v in figure(results)["views"] if (v["observable"], v["against"]) == (observable, against)
+    ]
+    return found
+
+
+def unpacked(curve):
+    fractions = np.frombuffer(base64.b64decode(curve["data"]), dtype="<u2").reshape(-1, curve["n"])
+    low, high = np.array(curve["low"])[:, None], np.array(curve["high"])[:, None]
+    return (low + fractions / 65535 * (high - low)).T
+
+
+def test_each_scheme_is_one_line_over_its_steps_with_its_configuration_on_hover(results):
+    lines = {line["name"]: line for line in view(results)["data"]}
+    assert len(lines) == 10
+    rk4 = lines["mujoco RK4"]
+    rows = [
+        row
+        for row in results["work_precision"]
+        if (row["scene"], row["scheme"], row["observable"]) == (SCENE, "RK4", "orientation")
+    ]
+    rows.sort(key=lambda row: row["dt"])
+    np.testing.assert_allclose(rk4["x"], [row["seconds_median"] for row in rows], rtol=1e-5)
+    np.testing.assert_allclose(rk4["y"], [row["error"] for row in rows], rtol=1e-5)
+    assert [float(row[0]) for row in rk4["customdata"]] == [row["dt"] for row in rows]
+    for word in ("mujoco 4.0.0, RK4", "{customdata[0]} s, %{customdata[1]} steps", "rad", "{customdata[2]}"):
+        assert word in rk4["hovertemplate"]
+    assert rk4["customdata"][0][2].endswith("10 repeats")
+
+
+def test_plotly_itself_accepts_every_line(results):
+    for each in figure(results)["views"]:
+        drawn = plotly.graph_objects.Figure(data=each["data"])
+        assert len(drawn.data) == len(each["data"]) > 0
+
+
+def test_schemes_of_an_engine_share_its_colour_and_differ_in_sign_and_dash(results):
+    lines = view(results)["data"]
+    looks = {(line["meta"], line["marker"]["symbol"], line["line"]["dash"]) for line in lines}
+    assert len(looks) == len(lines)
+    assert len({line["meta"] for line in lines}) == 3
+
+
+def test_a_run_that_was_not_timed_is_drawn_against_the_step(remade):
+    untimed = figure(remade(timed=False))
+    assert not untimed["timed"]
+    assert {each["against"] for each in untimed["views"]} == {"step"}
+    assert "not timed" in untimed["views"][0]["data"][0]["customdata"][0][2]
+
+
+def test_what_has_no_place_on_logarithmic_axes_is_named(results):
+    changed = copy.deepcopy(results)
+    rows = [r for r in changed["work_precision"] if (r["scene"], r["observable"]) == (SCENE, "orientation")]
+    rows[0]["error"], rows[1]["error"], rows[2]["seconds_median"] = 0.0, None, None
+    found = view(changed)
+    assert "error exactly 0: mujoco Euler (dt 2.00e-03 s)" in found["note"]
+    assert "error not finite: mujoco Euler (dt 1.00e-03 s)" in found["note"]
+    assert "not timed: mujoco Euler (dt 5.00e-04 s)" in found["note"]
+    assert len(found["data"][0]["x"]) == 2
+    assert "not timed" not in view(changed, against="step")["note"], "the step needs no time"
+    json.dumps(figure(changed), allow_nan=False)
+
+
+def test_a_scene_without_rows_has_no_figure(results):
+    assert figure(results, "tides") is None
+
+
+def test_pictures_hold_the_truth_densely_and_the_runs_at_their_samples(results, moved):
+    (motion,) = moved((SCENE,))
+    tip, _, wave = motion_figures(motion, Digest(results).columns)
+    assert (tip["title"], tip["axes"], tip["equal"]) == ("Tip of the symmetry axis e3", ["x", "y", "z"], True)
+    assert not wave["equal"]
+    truth, *runs = tip["curves"]
+    assert (truth["name"], truth["n"], truth["engine"]) == ("truth", TRUTH_POINTS, -1)
+    exact = motion.scene.truth(motion.scene, np.linspace(0, 10, TRUTH_POINTS))
+    expected = np.column_stack([exact.t, motion.scene.pictures[0].points(motion.scene, exact)])
+    # Half of a 65535th of the range.
+    np.testing.assert_allclose(unpacked(truth), expected, atol=10 / 65535)
+    np.testing.assert_allclose(unpacked(truth)[:, 1:], expected[:, 1:], atol=1e-5)
+    assert [run["name"] for run in runs][:2] == ["mujoco Euler", "mujoco implicit"]
+    samples = unpacked(runs[0])[:, 0]
+    np.testing.assert_allclose(samples * 50, np.rint(samples * 50), atol=1e-2)
+    corners = [expected[:, 1:].min(axis=0), expected[:, 1:].max(axis=0)]
+    np.testing.assert_allclose(tip["box"], corners, atol=1e-5)
+
+
+def test_a_run_that_explodes_is_cut_off_where_it_leaves_and_says_so(results, moved):
+    (motion,) = moved((SCENE,))
+    _, cone, _ = motion_figures(motion, Digest(results).columns)
+    (lost,) = [curve for curve in cone["curves"] if "maximal" in curve["name"]]
+    assert lost["name"].startswith("pybullet maximal, leaves at 4.0")
+    points = unpacked(lost)
+    assert points[-1, 0] < 4.1
+    assert np.abs(points[:, 1:3]).max() <= FAR * 2.01
+
+
+def test_one_curve_of_low_order_and_one_of_high_order_are_shown_at_first(results, moved):
+    (motion,) = moved((SCENE,))
+    for picture in motion_figures(motion, Digest(results).columns):
+        shown = [curve["name"] for curve in picture["curves"] if curve["shown"]]
+        assert shown == ["truth", "mujoco Euler", "pinocchio RKMK4"]
+
+
+@pytest.mark.parametrize("height", [0.0, 3.0])
+def test_a_motion_that_rests_can_be_drawn(results, moved, height):
+    def still(motion):
+        return replace(motion, omega=np.full_like(motion.omega, height))
+
+    (motion,) = moved((SCENE,))
+    scene = replace(motion.scene, truth=lambda of, t: still(motion.scene.truth(of, t)))
+    resting = Motion(scene, tuple(still(run) for run in motion.runs))
+    _, cone, _ = motion_figures(resting, Digest(results).columns)
+    json.dumps(cone, allow_nan=False)
+    assert cone["box"] == [[height] * 3] * 2
+    for curve in cone["curves"]:
+        assert "leaves" not in curve["name"]
+        np.testing.assert_array_equal(unpacked(curve)[:, 1:], height)
