@@ -11,9 +11,10 @@ import numpy as np
 
 from . import elliptic
 from .checked import Array
-from .double_double import affine, fraction
+from .double_double import affine, fraction, two_sum
 from .heavy_top_case import Case, Factor, case
 from .heavy_top_constants import Constants, real
+from .heavy_top_roots import roots
 from .heavy_top_steady import ComplexArray, Triple, steady
 from .precise import mp
 from .theta import Lattice, Waves, theta, theta_above, waves
@@ -21,8 +22,11 @@ from .theta import Lattice, Waves, theta, theta_above, waves
 #: A modulus m below which the axis nutates by less than any double shows.
 _UNSEEN = 1e-250
 
-#: A u so small that no function of it differs from its first term.
-_SOON = 1e-200
+#: A step of u so small that no function of it differs from its first two terms.
+_MOMENT = 1e-18
+
+#: Beside its rate a function below this is compared after such a step.
+_VANISHING = 1e-16
 
 
 def nutating(fixed: Constants, now: Sequence[complex], t: Array) -> Triple:
@@ -30,12 +34,15 @@ def nutating(fixed: Constants, now: Sequence[complex], t: Array) -> Triple:
 
     For a motion with gravity that is not steady.
     """
-    this, spin = case(fixed), real(fixed.spin)
-    if this.modulus.m < _UNSEEN:
+    found = roots(fixed)
+    if found.d12 < _UNSEEN * found.d13:
         return steady(fixed, now, t)
+    this, spin = case(fixed, found), real(fixed.spin)
     phase = elliptic.phase(this.modulus, this.rate, this.start, t)
     shapes = _shapes(this, (spin / 2, -spin / 2, -spin), t, phase)
-    alpha, beta, Omega = (shape * unit for shape, unit in zip(shapes, _fitting(this, now), strict=True))
+    alpha, beta, Omega = (
+        shape * unit for shape, unit in zip(shapes, _fitting(this, fixed, now), strict=True)
+    )
     return alpha, beta, Omega
 
 
@@ -77,18 +84,30 @@ def _turn(rate: Any, t: Array, lattice: Lattice, height: Any, remainder: Array) 
     return np.asarray(np.cos(angle) + 1j * np.sin(angle))
 
 
-def _fitting(case: Case, now: Sequence[complex]) -> list[complex]:
-    """Unit factors that make α, β, Ω what they are at t = 0; a derivative tells where one is 0 there."""
-    alpha, beta, across = now
-    rates = (-beta * across.conjugate(), alpha * across, alpha.conjugate() * beta)
-    start, origin = np.zeros(1), elliptic.phase(case.modulus, case.rate, case.start, np.zeros(1))
-    here = _shapes(case, (0, 0, 0), start, origin)
-    if not all(now):
-        after = _shapes(case, (0, 0, 0), start, origin._replace(remainder=(np.array([_SOON]), start)))
-        here = [h if value else a for value, h, a in zip(now, here, after, strict=True)]
-    wanted = [value or rate for value, rate in zip(now, rates, strict=True)]
-    return [_unit(w) / _unit(complex(h[0])) for w, h in zip(wanted, here, strict=True)]
+def _fitting(case: Case, fixed: Constants, now: Sequence[complex]) -> list[complex]:
+    """Unit factors that make α, β, Ω what they are at t = 0.
+
+    One that all but vanishes there is compared a moment later, where the start's own digits still tell it.
+    """
+    alpha, beta, Omega = (mp.mpc(value) for value in now)
+    ia, k = mp.mpc(0, real(fixed.a)), real(fixed.k)
+    rates = (
+        (ia * alpha - beta * mp.conj(Omega)) / 2,
+        (alpha * Omega - ia * beta) / 2,
+        k * mp.conj(alpha) * beta,
+    )
+    zero, origin = np.zeros(1), elliptic.phase(case.modulus, case.rate, case.start, np.zeros(1))
+    moved = origin._replace(remainder=two_sum(origin.remainder[0] + _MOMENT, origin.remainder[1]))
+    here, soon = (_shapes(case, (0, 0, 0), zero, phase) for phase in (origin, moved))
+    units = []
+    for value, rate, at_start, later in zip((alpha, beta, Omega), rates, here, soon, strict=True):
+        step = rate / case.rate
+        vanishing = abs(value) < _VANISHING * abs(step)
+        wanted, found = (value + _MOMENT * step, later) if vanishing else (value, at_start)
+        units.append(_unit(wanted) / _unit(found[0]))
+    return units
 
 
-def _unit(z: complex) -> complex:
-    return z / abs(z)
+def _unit(z: Any) -> complex:
+    size = abs(z)
+    return complex(z / size) if size else 1 + 0j

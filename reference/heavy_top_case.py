@@ -22,7 +22,7 @@ import numpy as np
 
 from . import elliptic
 from .heavy_top_constants import Constants, real
-from .heavy_top_roots import Roots, roots
+from .heavy_top_roots import Roots
 from .precise import mp
 from .theta import Lattice, theta, theta_above, waves
 
@@ -48,9 +48,8 @@ class Case(NamedTuple):
     factors: tuple[Factor, Factor, Factor]
 
 
-def case(motion: Constants) -> Case:
-    """The case of a motion with k > 0 that is not steady."""
-    found = roots(motion)
+def case(motion: Constants, found: Roots) -> Case:
+    """The case of a motion with k > 0 that is not steady, and of its turning points."""
     k, a, c = (real(v) for v in motion[:3])
     d1, rest, highest = found.d1, found.from_rest[0], found.from_hanging[1]
     modulus = elliptic.modulus(found.d12 / found.d13, found.d23 / found.d13)
