@@ -39,7 +39,7 @@ def wobble_rate(moments: npt.ArrayLike, axis: int, spin: float) -> float:
         raise InputError(
             f"axis: got {axis}, that of the middle moment, about which nothing wobbles: it grows"
         )
-    return math.sqrt(abs(Omega_i)) * math.sqrt(abs(Omega_j))
+    return math.sqrt(abs(Omega_i * Omega_j))
 
 
 def wobble_ratio(moments: npt.ArrayLike, axis: int) -> float:
@@ -61,7 +61,7 @@ def growth_rate(moments: npt.ArrayLike, spin: float) -> float:
     """
     moments = principal_moments("moments", moments)
     Omega_i, Omega_j = linear_rates(moments, int(moments.argsort(kind="stable")[1]), spin)
-    return math.sqrt(abs(Omega_i)) * math.sqrt(abs(Omega_j))
+    return math.sqrt(abs(Omega_i * Omega_j))
 
 
 def flip_period(moments: npt.ArrayLike, omega: npt.ArrayLike) -> float:

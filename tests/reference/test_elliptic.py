@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from poinsot.reference import elliptic
 from poinsot.reference.double_double import turning
@@ -54,7 +54,6 @@ def test_zeros_keep_their_relative_digits(complement):
 
 @given(st.floats(1e-300, 1.0), st.floats(-1e6, 1e6))
 @example(1e-300, 0.3)
-@settings(deadline=None)
 def test_the_squares_add_up(complement, t):
     m1 = mp.mpf(complement)
     modulus = elliptic.modulus(1 - m1, m1)

@@ -208,7 +208,6 @@ def sensitivity(moments, q0, omega0, t):
 
 
 @given(motions())
-@settings(deadline=None)
 def test_quaternions_are_unit_and_L_and_T_stay(case):
     moments, q0, omega0, span = case
     t = np.linspace(-span, span, 7)
@@ -223,7 +222,6 @@ def test_quaternions_are_unit_and_L_and_T_stay(case):
 
 
 @given(motions())
-@settings(deadline=None)
 def test_it_starts_where_it_is_released(case):
     moments, q0, omega0, _ = case
     q, omega = motion(moments, q0, omega0, 0.0)
@@ -232,7 +230,6 @@ def test_it_starts_where_it_is_released(case):
 
 
 @given(motions())
-@settings(deadline=None)
 def test_it_obeys_the_equations_of_motion(case):
     """Euler's equations and dq/dt = ½ q ω, with derivatives of Chebyshev series over a part of a turn."""
     moments, q0, omega0, span = case
@@ -261,7 +258,6 @@ def test_it_obeys_the_equations_of_motion(case):
 
 
 @given(motions())
-@settings(deadline=None)
 def test_time_runs_backwards_as_well(case):
     moments, q0, omega0, span = case
     t = np.array([span, 0.3 * span])
@@ -271,7 +267,7 @@ def test_time_runs_backwards_as_well(case):
 
 
 @given(motions(), st.floats(-1, 1))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_motions_compose(case, share):
     moments, q0, omega0, span = case
     span = span / 20
@@ -285,7 +281,6 @@ def test_motions_compose(case, share):
 
 
 @given(motions(), attitudes())
-@settings(deadline=None)
 def test_a_turned_world_sees_the_same_motion_turned(case, turn):
     moments, q0, omega0, span = case
     t = np.array([span, 0.3 * span])
@@ -306,7 +301,6 @@ RELABELLINGS = [
 
 
 @given(motions(), st.sampled_from(RELABELLINGS))
-@settings(deadline=None)
 def test_the_names_of_the_axes_do_not_matter(case, turn):
     moments, q0, omega0, span = case
     matrix = np.rint(quaternions.matrix(turn))
@@ -319,7 +313,6 @@ def test_the_names_of_the_axes_do_not_matter(case, turn):
 
 
 @given(motions(), st.integers(-30, 30), st.integers(-10, 10))
-@settings(deadline=None)
 def test_units_do_not_matter(case, mass_exponent, time_exponent):
     moments, q0, omega0, span = case
     t = np.array([span, 0.3 * span])
@@ -331,7 +324,6 @@ def test_units_do_not_matter(case, mass_exponent, time_exponent):
 
 
 @given(motions())
-@settings(deadline=None)
 def test_the_quaternion_changes_without_a_jump(case):
     moments, q0, omega0, _ = case
     fastest = np.sqrt(np.sum(moments * omega0**2) / moments.min())
