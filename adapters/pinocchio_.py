@@ -134,9 +134,16 @@ class Pinocchio:
             self._pull[i, j], self._drag[i, i] = -joint.stiffness, -joint.damping
         force = _spring_force(self._pull, self._drag)
 
-        def linearised(q: Array, v: Array) -> tuple[Array, Array, Array]:
-            pin.computeRNEADerivatives(model, data, q, v, rest)
-            return data.M, force(q, v) - data.tau, data.dtau_dv - self._drag
+        # Where a free body is and how fast it flies changes nothing in M or ∂f/∂v but, as Pinocchio takes
+        # them in world axes, their rounding: look at them at the origin, at rest.
+        at_origin, at_rest = np.ones(model.nq), np.ones(model.nv)
+        for i in range(1, model.njoints):
+            if model.nvs[i] == 3 and model.nqs[i] == 3:
+                at_origin[model.idx_qs[i] :][:3] = at_rest[model.idx_vs[i] :][:3] = 0
+
+        def linearised(q: Array, v: Array) -> tuple[Array, Array]:
+            pin.computeRNEADerivatives(model, data, q * at_origin, v * at_rest, rest)
+            return data.M, data.dtau_dv - self._drag
 
         balls = [int(model.idx_vs[i]) for i in range(1, model.njoints) if model.nqs[i] == 4]
         return Mechanism(

@@ -15,15 +15,15 @@ class Mechanism:
     """What a scheme needs to know of the system.
 
     ``force(q, v)`` is that of springs and dampers (nv,); ``accelerate(q, v, force)`` gives v̇ (nv,);
-    ``integrate(q, dq)`` is q ⊕ dq; ``linearised(q, v)`` gives the mass matrix (nv, nv), the whole
-    generalised force f (nv,) and −∂f/∂v (nv, nv); ``balls`` are the first places in v of the angular
-    velocities whose coordinates are quaternions.
+    ``integrate(q, dq)`` is q ⊕ dq; ``linearised(q, v)`` gives the mass matrix and −∂f/∂v of the whole
+    generalised force f = M v̇, (nv, nv) each and new at every call; ``balls`` are the first places in v
+    of the angular velocities whose coordinates are quaternions.
     """
 
     force: Callable[[Array, Array], Array]
     accelerate: Callable[[Array, Array, Array], Array]
     integrate: Callable[[Array, Array], Array]
-    linearised: Callable[[Array, Array], tuple[Array, Array, Array]]
+    linearised: Callable[[Array, Array], tuple[Array, Array]]
     balls: Sequence[int]
 
 
@@ -48,10 +48,15 @@ def semi_implicit_euler(system: Mechanism, q: Array, v: Array, dt: float, n: int
 
 def implicit_gyroscopic(system: Mechanism, q: Array, v: Array, dt: float, n: int) -> tuple[Array, Array]:
     """As semi-implicit Euler, with (M − dt ∂f/∂v) a = f in place of M a = f."""
+    force, accelerate, integrate, step = system.force, system.accelerate, system.integrate, np.array(dt)
     for _ in range(n):
-        mass, f, minus_df_dv = system.linearised(q, v)
-        v += _solve(mass + dt * minus_df_dv, f)[2] * dt
-        q = system.integrate(q, v * dt)
+        a = accelerate(q, v, force(q, v))
+        # Solved for the difference to the explicit a: the rounding of M and ∂f/∂v then counts dt times less.
+        mass, drag = system.linearised(q, v)
+        drag *= step
+        a -= _solve(mass + drag, drag @ a)[2]
+        v += step * a
+        q = integrate(q, step * v)
     return q, v
 
 

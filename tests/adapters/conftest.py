@@ -1,6 +1,7 @@
 """Cells to log, with numbers that are easily lost; trees of bodies to build in engines."""
 
 from collections.abc import Callable
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -8,6 +9,16 @@ from poinsot.reference import equations_of_motion
 from poinsot.scenarios.body import Body, Joint
 from poinsot.scenarios.scene import Scene
 from poinsot.scenarios.trajectory import Provenance, Trajectory
+
+#: Tests that speak to an engine itself, where it is not installed.
+collect_ignore = [
+    *(["test_mujoco.py", "test_twins.py"] if find_spec("mujoco") is None else []),
+    *(
+        ["test_pinocchio.py", "test_pinocchio_schemes.py", "test_twins.py"]
+        if find_spec("pinocchio") is None
+        else []
+    ),
+]
 
 Cell = tuple[Scene, Trajectory]
 
