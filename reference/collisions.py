@@ -46,8 +46,8 @@ def collide(
     -----
     Along the normal v1′ = ((m1 − e m2) v1 + m2 (1 + e) v2)/(m1 + m2), and the other way about for v2′;
     across it nothing changes. Q = ½μ(1 − e²)u², u the relative velocity along the normal. Written with the
-    impulse μ(1 + e)u, so that momentum is kept to the last digit. Newton's law of impact: Routh,
-    *Elementary Rigid Dynamics*, ch. 4; energies in both frames: Goldstein, sect. 3.11.
+    impulse μ(1 + e)u, so that momentum is kept to the last digit. Newton's law of impact; for
+    e = 1 Landau & Lifshitz, *Mechanics*, § 17; with a loss Q, Goldstein, sect. 3.11.
     """
     e, mu = within("restitution", restitution, 0.0, 1.0), reduced_mass(m1, m2)
     v1, v2 = finite("v1", v1), finite("v2", v2)

@@ -9,8 +9,8 @@ contact from Newton's law put into Euler's equations gives
     I1 s φ̈ = I3 ω3 θ̇ − 2 I1 φ̇ θ̇ c
     J ω̇3 = mr² φ̇ θ̇ s
 
-(Routh, *Advanced Rigid Dynamics*, ch. 5; Neimark & Fufaev, *Dynamics of Nonholonomic Systems*, ch. 2, on
-the rolling disc). I1 is the moment about a diameter, I3 about the axis, both through the centre.
+(derived here; Routh, *Advanced Rigid Dynamics*, and Neimark & Fufaev, *Dynamics of Nonholonomic Systems*,
+treat the disc). I1 is the moment about a diameter, I3 about the axis, both through the centre.
 """
 
 from typing import NamedTuple

@@ -224,7 +224,7 @@ def test_unbound_orbits_have_the_textbook_elements():
 
 
 def test_a_fall_from_rest_meets_the_centre_when_a_thin_ellipse_would():
-    # Half the period of an ellipse of half the axis: π/2 √(r³/2GM) (Taylor, problem 8.21 in kind).
+    # Half the period of an ellipse of half the axis: π/2 √(r³/2GM).
     R = 1.7
     meeting = np.pi / 2 * np.sqrt(R**3 / (2 * CENTRE))
     r, v = kepler_orbit.motion(CENTRE, [0, 0, R], [0, 0, 0], meeting * (1 - 1e-9))

@@ -147,7 +147,7 @@ def test_the_euler_acceleration_of_a_table_that_speeds_up():
 
 def test_signs_a_textbook_names():
     coriolis, centrifugal, euler = apparent_accelerations([0, 0, 2.0], [0, 0, 3.0], [1, 0, 0], [0, 1, 0])
-    np.testing.assert_array_equal(coriolis, [4, 0, 0])  # to the right of the motion (Taylor, fig. 9.11)
+    np.testing.assert_array_equal(coriolis, [4, 0, 0])  # to the right of the motion
     np.testing.assert_array_equal(centrifugal, [4, 0, 0])  # outward
     np.testing.assert_array_equal(euler, [0, -3, 0])  # lags behind
 
