@@ -160,11 +160,22 @@ def test_soft_mode_beside_stiff_ones_is_not_taken_for_a_drift():
     np.testing.assert_allclose(omega, [1e-9, 1e9], rtol=1e-15)
 
 
-def test_sign_of_modes_is_settled():
-    T, V = CASES["three bodies, one drift"]
-    _, A = normal_modes(T, V)
+@given(systems())
+def test_sign_of_modes_is_settled(system):
+    _, A = normal_modes(*system)
     for mode in A.T:
         assert mode[np.argmax(np.abs(mode) > np.abs(mode).max() / 2)] > 0
+
+
+def test_coordinate_that_no_spring_holds_drifts_however_it_shares_in_the_masses():
+    random = np.random.default_rng(7)
+    for _ in range(300):
+        mixing = random.uniform(-1, 1, (3, 3))
+        V = np.zeros((3, 3))
+        V[::2, ::2] = random.integers(-9, 10, (2, 2))
+        V = V.T @ V
+        omega, _ = normal_modes(mixing.T @ mixing + np.eye(3) / 10, V)
+        assert np.count_nonzero(omega == 0) == 3 - np.linalg.matrix_rank(V)
 
 
 def test_unstable_equilibrium_is_refused_with_its_growth_rate():
