@@ -58,37 +58,39 @@ def motion(
     method of order 8 (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, § II.5) goes
     from one time to the next at a relative tolerance of 1e-13.
     """
-    body = disc("disc", mass, radius, moments, gravity)
+    m, r, I1, I3, g = disc("disc", mass, radius, moments, gravity)
     q0, omega0, t = unit_quaternion("q0", q0), finite("omega0", omega0, (3,)), times("t", t)
     angles = zxz_angles(q0)
     if math.sin(angles[1]) < FLAT:
         raise InputError(f"q0: got {q0.tolist()}, expected a disc that stands on its rim, not a flat one")
-    heading, lean, _ = zxz_rates(angles, omega0)
-    start = np.array([*finite("place", place, (2,)), *angles, heading, lean, omega0[2]])
-    y = _sampled(lambda _, y: _rates(body, y), start, t)
-    angles, theta, omega3 = y[:, 2:5], y[:, 3], y[:, 7]
-    rates = np.column_stack([y[:, 5], y[:, 6], omega3 - y[:, 5] * np.cos(theta)])
-    q = zxz_attitude(angles)
+    # With r and √(r/g) for units, tolerances mean the same for a coin and a millstone.
+    second = math.sqrt(r / g)
+    heading, lean, _ = zxz_rates(angles, omega0) * second
+    start = np.array([0.0, 0.0, *angles, heading, lean, omega0[2] * second])
+    I1, I3 = I1 / (m * r * r), I3 / (m * r * r)
+    y = _sampled(lambda _, y: _rates(I1, I3, y), start, t / second)
+    angles, theta, (heading, lean, omega3) = y[:, 2:5], y[:, 3], y[:, 5:].T / second
     nodes = zxz_attitude(angles * [1.0, 1.0, 0.0])  # the axes e1, e2, e3
-    along = np.column_stack([-omega3, np.zeros_like(theta), y[:, 6]])
-    position = np.column_stack([y[:, :2], body[1] * np.sin(theta)])
-    return position, q, quaternions.rotated(nodes, body[1] * along), zxz_omega(angles, rates)
+    velocity = quaternions.rotated(nodes, r * np.column_stack([-omega3, 0 * omega3, lean]))
+    centre = finite("place", place, (2,)) + r * y[:, :2]
+    rates = np.column_stack([heading, lean, omega3 - heading * np.cos(theta)])
+    position = np.column_stack([centre, r * np.sin(theta)])
+    return position, zxz_attitude(angles), velocity, zxz_omega(angles, rates)
 
 
-def _rates(body: tuple[float, ...], y: Array) -> list[float]:
-    """Of x, y, φ, θ, ψ, φ̇, θ̇, ω3, in plain numbers for speed; see ``rolling_disc.accelerations``."""
-    m, r, I1, I3, g = body
+def _rates(I1: float, I3: float, y: Array) -> list[float]:
+    """Of x, y, φ, θ, ψ, φ̇, θ̇, ω3 where m = r = g = 1; see ``rolling_disc.accelerations``."""
     _, _, phi, theta, _, heading, lean, omega3 = y.tolist()
-    s, c, J = math.sin(theta), math.cos(theta), I3 + m * r * r
+    s, c = math.sin(theta), math.cos(theta)
     if s < FLAT:
         raise InputError("t: by then the disc has fallen flat")
-    leaning = (I1 * heading**2 * s * c - J * omega3 * heading * s - m * g * r * c) / (I1 + m * r * r)
+    leaning = (I1 * heading**2 * s * c - (I3 + 1) * omega3 * heading * s - c) / (I1 + 1)
     turning = (I3 * omega3 - 2 * I1 * heading * c) * lean / (I1 * s)
-    # v = r(θ̇ e3 − ω3 e1), with e1 = (cosφ, sinφ, 0) and e3 = (sinθ sinφ, −sinθ cosφ, cosθ).
-    across = r * lean * s
-    vx = across * math.sin(phi) - r * omega3 * math.cos(phi)
-    vy = -across * math.cos(phi) - r * omega3 * math.sin(phi)
-    return [vx, vy, heading, lean, omega3 - heading * c, turning, leaning, m * r * r * heading * lean * s / J]
+    spinning = heading * lean * s / (I3 + 1)
+    # v = θ̇ e3 − ω3 e1, with e1 = (cosφ, sinφ, 0) and e3 = (sinθ sinφ, −sinθ cosφ, cosθ).
+    vx = lean * s * math.sin(phi) - omega3 * math.cos(phi)
+    vy = -lean * s * math.cos(phi) - omega3 * math.sin(phi)
+    return [vx, vy, heading, lean, omega3 - heading * c, turning, leaning, spinning]
 
 
 def _sampled(rates: Callable[[float, Array], list[float]], start: Array, t: Array) -> Array:

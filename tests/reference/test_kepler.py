@@ -193,6 +193,18 @@ def test_orbits_conserve_compose_and_turn_back(r0, v0, t1, t2):
     np.testing.assert_allclose(speed[0], -v0, atol=grown * 10 * fastest / orbit.nearest)
 
 
+@pytest.mark.parametrize(("length", "time"), [(2.0**40, 2.0**-20), (2.0**-60, 2.0**30)])
+@pytest.mark.parametrize("speed", [0.5, 1.9, 2.7, 3.5])
+def test_units_do_not_matter(length, time, speed):
+    # Powers of two scale doubles exactly: any threshold in the formulas would show.
+    r0, v0, t = np.array([1.0, 0.1, 0]), np.array([0.2, speed, 0.3]), np.array([-1.0, 0.3, 40.0])
+    r, v = kepler_orbit.motion(CENTRE, r0, v0, t)
+    GM = CENTRE * length**3 / time**2
+    r2, v2 = kepler_orbit.motion(GM, r0 * length, v0 * (length / time), t * time)
+    np.testing.assert_allclose(r2 / length, r, rtol=1e-14)
+    np.testing.assert_allclose(v2 / (length / time), v, rtol=1e-14)
+
+
 def test_elements_a_textbook_gives():
     # Kepler's third law; vis viva; a comet of e = 0.9 is 19 times as far away at its farthest.
     GM, a, e = 2.0, 3.0, 0.9

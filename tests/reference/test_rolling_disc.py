@@ -202,6 +202,19 @@ def test_a_slow_hoop_topples_at_its_rate_and_a_fast_one_does_not():
     assert np.abs(angles(turn)[:, 1] - np.pi / 2).max() < 10 * lean
 
 
+def test_units_do_not_matter():
+    # The same motion 2⁻²⁰ times as large, 2¹⁰ times as fast and of another mass, from another place.
+    m, r, moments, g = DISC
+    q, omega = start(1.1, 0.7, 2.0, -9.0, 0.4, 1.3)
+    small, fast = 2.0**-20, 2.0**10
+    scaled = (m * 8.0, r * small, np.multiply(moments, 8.0 * small**2), g * small * fast**2)
+    first = motion(*DISC, q, omega, [0.5, 1.0], (1.0, 2.0))
+    second = motion(*scaled, q, omega * fast, np.array([0.5, 1.0]) / fast)
+    np.testing.assert_allclose(second[0] / small, first[0] - [1.0, 2.0, 0], atol=1e-14)
+    np.testing.assert_allclose(second[2] / small / fast, first[2], atol=1e-13)
+    np.testing.assert_allclose(second[3] / fast, first[3], atol=1e-13)
+
+
 def test_upright_rolling_is_straight():
     q, omega = start(np.pi / 2, 0, 0, 3.0)
     position, _, v, _ = motion(*DISC, q, omega, [2.0])

@@ -74,6 +74,16 @@ def test_a_charge_in_a_magnetic_field_keeps_its_circle_after_a_million_turns():
     np.testing.assert_allclose(r[1], [float(e) for e in expected], atol=2e-15)
 
 
+@pytest.mark.parametrize(("length", "time"), [(2.0**40, 2.0**-20), (2.0**-60, 2.0**30)])
+def test_units_do_not_matter(length, time):
+    W, f, r0, v0 = np.random.default_rng(2).normal(size=(4, 3))
+    t = np.array([-3.0, 1e-4, 0.2, 50.0])
+    r, v = gyration(W, f, r0, v0, t)
+    scaled = gyration(W / time, f * (length / time**2), r0 * length, v0 * (length / time), t * time)
+    np.testing.assert_array_equal(scaled[0] / length, r)
+    np.testing.assert_array_equal(scaled[1] / (length / time), v)
+
+
 def test_crossed_fields_drift():
     # Landau & Lifshitz, sect. 22: the mean velocity is f×(−W)/W² and needs no start.
     W, f = np.array([0, 0, 2.0]), np.array([0.5, 0, 0])
