@@ -36,11 +36,9 @@ def _declaration(path: Path) -> Declaration:
             values = {a.target.id: a.value for a in node.body if isinstance(a, ast.AnnAssign) if a.value
                       and isinstance(a.target, ast.Name)}  # fmt: skip
             if "schemes" in values:
-                package = path.stem.removesuffix("_")
-                installed = importlib.util.find_spec(package) is not None
-                return Declaration(
-                    *(_value(values[name]) for name in ("name", "features", "schemes")), installed=installed
-                )
+                installed = importlib.util.find_spec(path.stem.removesuffix("_")) is not None
+                name, features, schemes = (_value(values[key]) for key in ("name", "features", "schemes"))
+                return Declaration(name, features, schemes, installed)
     raise PoinsotError(f"{path.name}: got no class that declares schemes, expected one engine")
 
 

@@ -5,8 +5,8 @@ import os
 import re
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Future, as_completed
 from concurrent.futures import TimeoutError as TimeLimitError
-from concurrent.futures import as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -92,7 +92,7 @@ def _isolated(
         futures = [
             (pool.schedule(work, (request, *arguments), timeout=time_limit), request) for request in requests
         ]
-        origin = dict(futures)
+        origin: dict[Future[Any], Request] = dict(futures)
         for future in as_completed(origin):
             request = origin[future]
             try:

@@ -10,7 +10,7 @@ import numpy as np
 from ..reference.errors import InputError
 from ..scenarios.scene import FEATURES, Scene
 from ..scenarios.trajectory import Provenance, Trajectory
-from .engine import Engine, EngineError, Scheme
+from .engine import Engine, EngineError, Scheme, State
 
 
 class UnsupportedError(InputError):
@@ -80,15 +80,15 @@ def digest(motion: Trajectory) -> str:
 
 def _record(machine: Engine, scene: Scene, dt: float) -> Trajectory:
     stride = scene.steps_per_sample(dt)
-    columns = [np.empty((scene.samples + 1, *np.shape(part))) for part in machine.state()]
+    columns = State(*(np.empty((scene.samples + 1, *np.shape(part))) for part in machine.state()))
     for sample in range(scene.samples + 1):
         if sample:
             machine.step(stride)
         # Assigned, so copied: an engine may hand out views of arrays that its next step overwrites.
         for column, part in zip(columns, machine.state(), strict=True):
             column[sample] = part
-    t = np.arange(scene.samples + 1) * stride * dt
-    motion = Trajectory(t, *columns)
+    t = np.asarray(np.arange(scene.samples + 1) * stride * dt)
+    motion = Trajectory(t, **columns._asdict())
     broken = motion.first_not_finite()
     if broken is not None:
         raise EngineError(f"the state is not finite at t = {broken:g} s")

@@ -42,7 +42,7 @@ def measured(scene):
         for scheme in () if isinstance(engine, str) else engine.schemes:
             if scheme.twin in found or unsupported(scene, engine, scheme):
                 continue
-            steps = sorted({*scene.ladder(scheme.order), scene.dt})
+            steps = sorted({*scene.ladder(scheme.order, scheme.twin), scene.dt})
             cells = [Cell.of(simulate(scene, engine, scheme, dt)[0], scenes()) for dt in steps]
             found[scheme.twin] = {o.name: constant(cells, o) for o in scene.observables}
             versions[engine.name] = engine.version()

@@ -71,7 +71,7 @@ def work_precision(
     for engine in installed if engines is None else [_engine(engine) for engine in engines]:
         for scheme in engine.schemes:
             if not unsupported(scene, engine, scheme):
-                for dt in scene.ladder(scheme.order):
+                for dt in scene.ladder(scheme.order, scheme.twin):
                     rows += _rows(scene, engine, scheme.name, dt)
     return rows
 

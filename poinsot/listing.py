@@ -58,14 +58,14 @@ def outcome(found: Mapping[str, Any], folder: Path) -> str:
 
 
 def _complaints(cell: Mapping[str, Any]) -> list[str]:
-    place = f"{cell['scene']} in {cell['engine']} {cell['scheme']}"
+    place = f"{cell['scene']} in {cell['engine']} {cell['scheme']} at dt {cell['dt']:g} s"
     if cell["message"] and cell["status"] == "error":
-        return [f"error: {place} at dt {cell['dt']:g} s: {cell['message']}"]
+        return [f"error: {place}: {cell['message']}"]
     return [
-        f"{verdict['status']}: {place} at dt {cell['dt']:g} s: {verdict['check']} of {verdict['observable']}: "
-        f"{verdict['message']}{_numbers(verdict)}"
-        for verdict in cell["verdicts"]
-        if verdict["status"] in ("fail", "fixed", "error")
+        f"{found['status']}: {place}: {found['check']} of {found['observable']}: "
+        f"{found['message']}{_numbers(found)}"
+        for found in cell["verdicts"]
+        if found["status"] in ("fail", "fixed", "error")
     ]
 
 

@@ -103,7 +103,9 @@ def _add(
 
 def _steps(scene: Scene, scheme: Scheme, steps: Sequence[float]) -> Iterator[tuple[float, float]]:
     """Each step asked for with the one it is rounded to, from the coarsest, none twice."""
-    asked = {scene.whole_step(dt): dt for dt in (steps or (*scene.ladder(scheme.order), scene.dt))}
+    asked = {
+        scene.whole_step(dt): dt for dt in (steps or (*scene.ladder(scheme.order, scheme.twin), scene.dt))
+    }
     for dt in sorted(asked, reverse=True):
         yield asked[dt], dt
 

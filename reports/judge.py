@@ -1,11 +1,11 @@
 """The comparator: trajectories in, verdicts out, with no engine in sight."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 
 from ..scenarios.registry import scenes as all_scenes
 from ..scenarios.scene import Scene
-from ..scenarios.trajectory import Trajectory
+from ..scenarios.trajectory import Provenance, Trajectory
 from . import order, setup, truth, twin
 from .cell import Cell
 from .verdict import Status, Verdict
@@ -38,8 +38,8 @@ def _finite(cell: Cell) -> list[Verdict]:
     return [cell.verdict("truth", "state", Status.ERROR, f"not finite from t = {since:g} s on", at=since)]
 
 
-def _grouped(cells, key):  # type: ignore[no-untyped-def]
-    groups = defaultdict(list)
+def _grouped(cells: Iterable[Cell], key: Callable[[Provenance], Hashable]) -> list[list[Cell]]:
+    groups: dict[Hashable, list[Cell]] = defaultdict(list)
     for cell in cells:
         groups[key(cell.provenance)].append(cell)
     return list(groups.values())

@@ -88,7 +88,7 @@ def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any
         time = seconds.get((p.scene, p.engine, p.scheme, p.dt), untimed)
         for observable in cell.scene.observables:
             if observable.kind != "invariant":
-                rows.append(_row(cell, observable) | time)  # noqa: PERF401 (two loops read better than one)
+                rows.append(_row(cell, observable) | dict(time))  # noqa: PERF401 (two loops read better than one)
     return rows
 
 
@@ -208,6 +208,7 @@ def _described(scene: Scene) -> dict[str, Any]:
         "features": sorted(scene.features),
         "left_out": list(scene.left_out),
         "duration": scene.duration,
+        "dt": scene.dt,
         "samples": scene.samples,
     }
 

@@ -54,7 +54,7 @@ def _top(variant: str, I1: float, I3: float) -> Scene:
             observables.unit_norm(),
         ),
         pictures=(pictures.tip(), pictures.body_cone()),
-        ladders={1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
+        ladders={1: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
         errors=ERRORS[variant],
     )
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..reference import heavy_top
+from ..reference import heavy_top, heavy_top_rates
 from ..reference.checked import Array
 from . import observables, pictures
 from .body import Body, Joint, Vector, diagonal
@@ -14,17 +14,46 @@ MASS, LENGTH, I1, I3, G = 1.0, 0.05, 0.0065, 0.0075, 9.81
 TILTED = (0.28, 0.0, 0.0, 0.96)
 
 
-def _truth(scene: Scene, t: Array) -> Trajectory:
+Ladders = dict[int | str, tuple[float, ...]]
+Arguments = tuple[float, float, tuple[float, float], float, tuple[float, ...], tuple[float, ...]]
+
+
+def _arguments(scene: Scene) -> Arguments:
+    """Mass, length, moments about the fixed point, gravity, attitude and ω: what the reference asks for."""
     body = scene.bodies[0]
     length = body.center_of_mass[2]
     moments = (body.inertia[0][0] + body.mass * length**2, body.inertia[2][2])
-    q, omega = heavy_top.motion(body.mass, length, moments, -scene.gravity[2], scene.q0, scene.v0, t)
-    return about_fixed_point(t, np.array(body.center_of_mass), q, omega)
+    return body.mass, length, moments, -scene.gravity[2], scene.q0, scene.v0
 
 
-def _top(
-    variant: str, summary: str, omega0: Vector, samples: int, ladders: dict[int, tuple[float, ...]]
-) -> Scene:
+def _truth(scene: Scene, t: Array) -> Trajectory:
+    q, omega = heavy_top.motion(*_arguments(scene), t)
+    return about_fixed_point(t, np.array(scene.bodies[0].center_of_mass), q, omega)
+
+
+def _horizontal(scene: Scene, motion: Trajectory) -> Array:
+    """The axis seen from above, as a complex number: its phase is the azimuth."""
+    x, y, _ = motion.position[:, 0].T
+    return np.asarray(x + 1j * y)
+
+
+def _mean_precession(scene: Scene) -> float:
+    return heavy_top_rates.mean_precession(*_arguments(scene))
+
+
+def _nutation_frequency(scene: Scene) -> float:
+    return 2 * np.pi / heavy_top_rates.nutation_period(*_arguments(scene))
+
+
+def _nutating(scene: Scene, motion: Trajectory) -> Array:
+    """Height about its mean, and its speed over the nutation frequency: a circle, if a dented one."""
+    length = scene.bodies[0].center_of_mass[2]
+    lowest, highest, *_ = heavy_top_rates.turning_points(*_arguments(scene))
+    height = motion.position[:, 0, 2] - length * (lowest + highest) / 2
+    return np.asarray(height - 1j * motion.velocity[:, 0, 2] / _nutation_frequency(scene))
+
+
+def _top(variant: str, summary: str, omega0: Vector, samples: int, ladders: Ladders) -> Scene:
     about_center = diagonal(I1 - MASS * LENGTH**2, I1 - MASS * LENGTH**2, I3)
     return Scene(
         name="heavy_top",
@@ -43,6 +72,8 @@ def _top(
         observables=(
             observables.orientation(),
             observables.omega(),
+            observables.rate("precession", _horizontal, _mean_precession),
+            observables.rate("nutation", _nutating, _nutation_frequency),
             observables.energy(),
             observables.vertical_angular_momentum(),
             observables.axial_angular_momentum(),
@@ -56,8 +87,8 @@ def _top(
 
 ERRORS: dict[str, dict[str, dict[str, float]]] = {}
 
-SLOW = {1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)}
-FAST = {1: (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5), 4: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)}
+SLOW: Ladders = {1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)}
+FAST: Ladders = {1: (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5), 4: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)}
 
 SCENES = (
     _top("moderate", "spinning at 20 rad/s: deep nutation in loops", (1.5, 0.5, 20.0), 200, SLOW),

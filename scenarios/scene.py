@@ -41,8 +41,8 @@ class Scene:
 
     ``q0`` and ``v0`` hold every joint's coordinates, body by body, in the widths of ``WIDTHS``.
     The run lasts ``duration`` [s] and is looked at ``samples`` times after the start, evenly.
-    ``dt`` [s] is the step to run at when none is asked for; ``ladders`` maps a scheme's order to
-    the steps over which that order is measured.
+    ``dt`` [s] is the step to run at when none is asked for; ``ladders`` maps a scheme's order, or
+    its twin name where that needs others, to the steps over which its order is measured.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
@@ -65,7 +65,7 @@ class Scene:
     variant: str = ""
     gravity: Vector = (0.0, 0.0, 0.0)
     dt: float = 1e-3
-    ladders: Mapping[int, tuple[float, ...]] = field(default_factory=dict)
+    ladders: Mapping[int | str, tuple[float, ...]] = field(default_factory=dict)
     errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     scheme_motion: SchemeMotion | None = None
 
@@ -126,11 +126,14 @@ class Scene:
         exact = self.duration / self.samples / self.steps_per_sample(dt)
         return dt if abs(dt / exact - 1) < 1e-12 else exact
 
-    def ladder(self, order: int) -> tuple[float, ...]:
-        """Steps [s] over which to measure a scheme of this order: those of the nearest order there is."""
-        if not self.ladders:
+    def ladder(self, order: int, twin: str = "") -> tuple[float, ...]:
+        """Steps [s] over which to measure a scheme: its own, or those of the nearest order there is."""
+        if twin in self.ladders:
+            return self.ladders[twin]
+        orders = [known for known in self.ladders if isinstance(known, int)]
+        if not orders:
             return (self.dt,)
-        return self.ladders[min(self.ladders, key=lambda known: abs(known - order))]
+        return self.ladders[min(orders, key=lambda known: abs(known - order))]
 
     def slices(self) -> list[tuple[Body, Joint, slice, slice]]:
         """Each joint with its body and its places in ``q0`` and ``v0``."""
