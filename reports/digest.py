@@ -104,7 +104,7 @@ class Group:
             (verdict["measured"] / verdict["allowed"], f"{verdict['check']} of {verdict['observable']}")
             for verdict in self.main["verdicts"]
             # An order is not better for being smaller: its share of what is allowed says nothing.
-            if verdict["check"] != "order" and verdict["measured"] is not None and verdict["allowed"]
+            if verdict["check"] != "order" and verdict["measured"] and verdict["allowed"]
         ]
         return max(shares, default=None)
 

@@ -7,31 +7,51 @@ from dataclasses import dataclass
 from .digest import Column, Digest, Group, Record
 from .results import GRAVITY
 from .verdict import Status
-from .wording import steps
+from .wording import number, steps
 
 
 @dataclass(frozen=True)
 class Finding:
-    """A sentence, what it is about (check, observable, steps; may be empty) and where it is true."""
+    """A sentence, what it is about (check, observable, steps; may be empty) and where it is true.
+
+    ``numbers`` says what was measured and allowed where it is worst; empty where there is no number.
+    """
 
     status: Status
     sentence: str
     about: str
     groups: tuple[Group, ...]
     where: str
+    numbers: str
 
 
 def findings(digest: Digest) -> list[Finding]:
     """Everything that is not a pass, worst first, then in the order of the matrix."""
-    merged: dict[tuple[Status, str, str], list[Group]] = {}
+    merged: dict[tuple[Status, str, str], list[tuple[Group, Record, float]]] = {}
     for group in digest.groups.values():
-        for key in _told(group):
-            merged.setdefault(key, []).append(group)
-    ordered = sorted(merged.items(), key=lambda item: GRAVITY.index(item[0][0]))
+        for key, record, dt in _told(group):
+            merged.setdefault(key, []).append((group, record, dt))
     return [
-        Finding(status, sentence, about, tuple(groups), _where(digest, groups))
-        for (status, about, sentence), groups in ordered
+        _finding(digest, key, found)
+        for key, found in sorted(merged.items(), key=lambda item: GRAVITY.index(item[0][0]))
     ]
+
+
+def _finding(
+    digest: Digest, key: tuple[Status, str, str], found: list[tuple[Group, Record, float]]
+) -> Finding:
+    status, about, sentence = key
+    groups = [group for group, _, _ in found]
+    _, worst, dt = max(found, key=lambda place: _excess(place[1]))
+    return Finding(status, sentence, about, tuple(groups), _where(digest, groups), _numbers(worst, dt))
+
+
+def _numbers(record: Record, dt: float) -> str:
+    if record.get("measured") is None:
+        return ""
+    unit = f" {record['unit']}" if record["unit"] not in ("", "1") else ""
+    measured, allowed = number(record["measured"]), number(record["allowed"])
+    return f"at worst, {steps([dt])}: measured {measured}, allowed {allowed}{unit}"
 
 
 def _not_passes(group: Group) -> Iterator[tuple[Status, str, Record, float]]:
@@ -46,19 +66,20 @@ def _not_passes(group: Group) -> Iterator[tuple[Status, str, Record, float]]:
             yield Status(cell["status"]), "", cell, cell["dt"]
 
 
-def _told(group: Group) -> Iterator[tuple[Status, str, str]]:
-    """Status, subject and sentence: a check that was measured at many steps speaks where it is worst."""
+def _told(group: Group) -> Iterator[tuple[tuple[Status, str, str], Record, float]]:
+    """Status, subject and sentence, said by which record at which step.
+
+    A check that was measured at many steps speaks once, where it is worst.
+    """
     same: dict[tuple[Status, str, str], list[tuple[Record, float]]] = {}
     for status, about, record, dt in _not_passes(group):
         apart = "" if record.get("measured") is not None else record["message"]
         same.setdefault((status, about, apart), []).append((record, dt))
     for (status, about, _), found in same.items():
-        worst = max((record for record, _ in found), key=_excess)["message"]
-        here = [dt for record, dt in found if record["message"] == worst]
-        rest = [dt for record, dt in found if record["message"] != worst]
-        every = len(here) == len(group.cells)
-        parts = [about, "" if every else steps(here), f"also at {steps(rest)}" if rest else ""]
-        yield status, ", ".join(part for part in parts if part), worst or status.sentence
+        worst, at = max(found, key=lambda place: _excess(place[0]))
+        where = "" if len(found) == len(group.cells) else steps(dt for _, dt in found)
+        subject = ", ".join(part for part in (about, where) if part)
+        yield (status, subject, worst["message"] or status.sentence), worst, at
 
 
 def _excess(record: Record) -> float:

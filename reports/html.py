@@ -11,6 +11,7 @@ from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup, escape
 from plotly.offline.offline import get_plotlyjs
 
+from ..scenarios.scene import FEATURES
 from .digest import Column, Digest, Group, Record
 from .findings import findings
 from .plots import Motion, cost_figure, motion_figures
@@ -69,6 +70,7 @@ def _environment() -> Environment:
         "breakable": _breakable,
         "reference": lambda text: quote(printable(text)),
         "verdict_rows": _verdict_rows,
+        "in_words": lambda feature: FEATURES.get(feature, feature),
     }
     environment.globals |= {
         "Status": Status,

@@ -76,7 +76,7 @@ def _not_passes(digest: Digest) -> str:
     for status, some in groupby(found, key=lambda finding: finding.status):
         sentences = [
             f"- **{_plain(finding.where)}**{', ' * bool(finding.about)}{_plain(finding.about)}: "
-            f"{_plain(finding.sentence)}"
+            f"{_plain(finding.sentence)}{f' ({_plain(finding.numbers)})' if finding.numbers else ''}"
             for finding in some
         ]
         lines.append("\n".join([f"### {GLYPHS[status]} {status.value}: {status.sentence}", "", *sentences]))

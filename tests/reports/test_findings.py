@@ -50,7 +50,12 @@ def test_a_check_that_fails_at_many_steps_speaks_where_it_is_worst_and_names_the
     cells[3]["verdicts"][0].update(measured=1e3, message="a thousand radians off")
     (finding,) = told(changed, Status.FAIL)
     assert finding.sentence == "a thousand radians off"
-    assert finding.about.startswith("truth of orientation, dt 2.50e-04 s, also at dt 2.00e-03, 1.00e-03,")
+    assert finding.about == "truth of orientation", "it fails at every step"
+    assert finding.numbers.startswith("at worst, dt 2.50e-04 s: measured 1.00e+03, allowed ")
+    assert finding.numbers.endswith(" rad")
+    cells[1]["verdicts"][0]["status"] = "pass"
+    (finding,) = told(changed, Status.FAIL)
+    assert finding.about == "truth of orientation, dt 2.00e-03, 5.00e-04, 2.50e-04, 1.25e-04 s"
 
 
 def test_different_accidents_at_different_steps_are_all_told(results):

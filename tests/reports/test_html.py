@@ -141,7 +141,7 @@ def test_what_a_reader_must_know_is_there(page, results):
 
 def test_a_run_without_times_says_so(remade, tmp_path):
     words = Page(rendered(remade(timed=False), tmp_path)).words()
-    assert "This run was not timed" in words
+    assert "This scene was not timed" in words
     assert "Error against step" in words
 
 

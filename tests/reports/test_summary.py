@@ -67,6 +67,7 @@ def test_every_finding_note_and_fact_is_there(text, results):
     for finding in findings(Digest(results)):
         assert f"- **{finding.where}**" in plain
         assert finding.sentence in plain
+        assert finding.numbers in plain
     for word in (*results["notes"], "AMD EPYC 9B14", "4.0.0", "poinsot run --out out", "48.7 s"):
         assert word in plain
 
