@@ -36,7 +36,7 @@ def rounded_up(value):
 
 
 def measured(scene):
-    """``{twin: {observable: C}}`` of one scene over every scheme that is installed."""
+    """``{twin: (C, …)}`` of one scene, a C for each observable, over every scheme that is installed."""
     found, versions = {}, {}
     for engine in registry.engines().values():
         for scheme in () if isinstance(engine, str) else engine.schemes:
@@ -44,7 +44,7 @@ def measured(scene):
                 continue
             steps = sorted({*scene.ladder(scheme.order, scheme.twin), scene.dt})
             cells = [Cell.of(simulate(scene, engine, scheme, dt)[0], scenes()) for dt in steps]
-            found[scheme.twin] = {o.name: constant(cells, o) for o in scene.observables}
+            found[scheme.twin] = tuple(constant(cells, o) for o in scene.observables)
             versions[engine.name] = engine.version()
     return found, versions
 
@@ -53,4 +53,4 @@ if __name__ == "__main__":
     for chosen in select(sys.argv[1:]):
         table, by = measured(chosen)
         print(f"# {chosen.full_name}: {', '.join(f'{name} {version}' for name, version in by.items())}")
-        print(f'"{chosen.variant}": {pformat(table, width=100, sort_dicts=False)},')
+        print(f'"{chosen.variant}": {pformat(table, width=105, sort_dicts=False)},')

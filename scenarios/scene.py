@@ -46,7 +46,8 @@ class Scene:
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
-    ``errors[twin][observable]`` is the recorded constant C of the scheme's error C·dt^order.
+    ``errors[twin]`` are the recorded constants C of the scheme's error C·dt^order, one for each of
+    ``observables``; 0 where only round-off was seen.
 
     Raises ``InputError`` on loading when something cannot be: the message names scene and field.
     """
@@ -66,7 +67,7 @@ class Scene:
     gravity: Vector = (0.0, 0.0, 0.0)
     dt: float = 1e-3
     ladders: Mapping[int | str, tuple[float, ...]] = field(default_factory=dict)
-    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    errors: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     scheme_motion: SchemeMotion | None = None
 
     def __post_init__(self) -> None:
@@ -126,6 +127,11 @@ class Scene:
         exact = self.duration / self.samples / self.steps_per_sample(dt)
         return dt if abs(dt / exact - 1) < 1e-12 else exact
 
+    def error_constant(self, twin: str, observable: Observable) -> float | None:
+        """The recorded C of C·dt^order for a scheme, or ``None`` where none is recorded."""
+        row = self.errors.get(twin)
+        return None if row is None else row[self.observables.index(observable)]
+
     def ladder(self, order: int, twin: str = "") -> tuple[float, ...]:
         """Steps [s] over which to measure a scheme: its own, or those of the nearest order there is."""
         if twin in self.ladders:
@@ -158,6 +164,12 @@ class Scene:
         finite("gravity", self.gravity, (3,))
         if self.samples < 1:
             raise InputError(f"samples: got {self.samples}, expected at least 1")
+        for twin, row in self.errors.items():
+            if len(row) != len(self.observables):
+                raise InputError(
+                    f"errors of {twin!r}: got {len(row)} constants, expected one for each of "
+                    f"{len(self.observables)} observables"
+                )
         names = [body.name for body in self.bodies]
         if len(set(names)) != len(names) or not names:
             raise InputError(f"bodies: got the names {names}, expected at least one, each different")
