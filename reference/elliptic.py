@@ -15,6 +15,7 @@ How a top uses it::
     secular = double_double.turning(third.rate * rate, 0, t)  # and exp(iX) = secular · periodic / periodic(0)
 """
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -96,12 +97,11 @@ def jacobi(modulus: Modulus, phase: Phase) -> tuple[Array, Array, Array]:
     DLMF § 22.2: quotients of theta functions, here within K/2 of 0, and § 22.4(iii) for the shift by K.
     """
     w = waves(modulus.lattice, phase.remainder)
-    four, origin = theta(modulus.lattice, 4, w), at_origin(modulus.lattice, 4)
+    *scales, k1 = _scales(modulus)
+    below = theta(modulus.lattice, 4, w)
     s, c, d = (
-        float(origin / at_origin(modulus.lattice, index)) * theta(modulus.lattice, index, w) / four
-        for index in (1, 2, 3)
+        size * theta(modulus.lattice, index, w) / below for index, size in zip((1, 2, 3), scales, strict=True)
     )
-    k1 = float(mp.sqrt(modulus.m1))
     step = np.mod(phase.quarter, 4)
     odd, sign = step % 2 == 1, np.where(step >= 2, -1.0, 1.0)
     # On the separatrix itself there is no quarter period to pass, and no d = 0 to divide by.
@@ -161,6 +161,14 @@ def third_kind(modulus: Modulus, n: Any, n_above_m: Any = None, one_minus_n: Any
     size = mp.sqrt(below * above / n)
     # Both θ1 and θ2 turn backwards above the real axis: the sign of depth is chosen to turn forwards.
     return ThirdKind(size, size - turn_rate(modulus.lattice, index, -depth), index, -depth)
+
+
+@lru_cache(64)
+def _scales(modulus: Modulus) -> tuple[float, float, float, float]:
+    """What makes sn u = u + …, cn 0 = 1 and dn 0 = 1 of quotients by θ4, and k′."""
+    above = at_origin(modulus.lattice, 4)
+    s, c, d = (float(above / at_origin(modulus.lattice, index)) for index in (1, 2, 3))
+    return s, c, d, float(mp.sqrt(modulus.m1))
 
 
 def _quarter_period(complement: Any) -> Any:

@@ -70,17 +70,17 @@ def polhode(moments: Array, omega: Array) -> Polhode:
 
 
 def direction(curve: Polhode, t: Array) -> tuple[Array, Phase]:
-    """L/|L| (n, 3) along the axes (c, s, d) at the times ``t`` (n,) [s], and the phases it was made from."""
+    """L/|L| (3, n) along the axes (c, s, d) at the times ``t`` (n,) [s], and the phases it was made from."""
     u = phase(curve.modulus, curve.rate, curve.start, t)
     sn, cn, dn = jacobi(curve.modulus, u)
     Ac, As, Ad = (float(amplitude) for amplitude in curve.amplitudes)
-    return np.stack([Ac * cn, As * sn, Ad * dn], axis=-1), u
+    return np.stack([Ac * cn, As * sn, Ad * dn]), u
 
 
 def in_body_axes(curve: Polhode, vector: Array) -> Array:
-    """Components (n, 3) along the body's axes of a ``vector`` (n, 3) given along (c, s, d)."""
+    """Components (3, n) along the body's axes of a ``vector`` (3, n) given along (c, s, d)."""
     result = np.empty_like(vector)
-    result[:, curve.axes] = vector * curve.directions
+    result[curve.axes] = vector * curve.directions[:, None]
     return result
 
 

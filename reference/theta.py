@@ -15,6 +15,8 @@ Only ratios and arguments are wanted, so each function is scaled to a first coef
 hyperbolic form all four are divided by cosh v, which keeps them finite at any distance.
 """
 
+from functools import lru_cache
+from operator import mul
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,6 +30,9 @@ _BEYOND_DIGITS = mp.mpf(10) ** (-DIGITS - 5)
 
 #: A term this small beside the first is left out where times are in double [1].
 _NEGLIGIBLE = 1e-19
+
+#: Series kept from one block of times to the next.
+_KEPT = 64
 
 #: Beyond this v hyperbolic functions are taken as at it: what is left of them is below 10⁻³⁰⁰.
 _FARTHEST = 690.0
@@ -87,12 +92,12 @@ def waves(lattice: Lattice, remainder: Pair) -> Waves:
 def theta(lattice: Lattice, index: int, w: Waves) -> Array:
     """θ_index(u) (n,), over a positive factor of its own."""
     index = _transformed(lattice, index)
-    coefficients = _floats(lattice, _sizes(lattice, index))
+    series = _series(lattice, index)
     if index == 1:
-        return w.sine * _clenshaw(coefficients, w.double, 1)
+        return w.sine * _clenshaw(series, w.double, 1)
     if index == 2:
-        return w.cosine * _clenshaw(coefficients, w.double, -1)
-    return w.damping * _clenshaw(coefficients, w.double, 0)
+        return w.cosine * _clenshaw(series, w.double, -1)
+    return w.damping * _clenshaw(series, w.double, 0)
 
 
 def theta_above(lattice: Lattice, index: int, depth: Any, w: Waves) -> tuple[Array, Array]:
@@ -102,7 +107,7 @@ def theta_above(lattice: Lattice, index: int, depth: Any, w: Waves) -> tuple[Arr
     μ = π·depth/(2K′) and is left to the caller.
     """
     index = _transformed(lattice, index)
-    real, imaginary = (_floats(lattice, c) for c in _coefficients(lattice, index, depth))
+    real, imaginary = _series_above(lattice, index, depth)
     if index == 1:
         return w.sine * _clenshaw(real, w.double, 1), w.cosine * _clenshaw(imaginary, w.double, -1)
     if index == 2:
@@ -134,7 +139,18 @@ def _transformed(lattice: Lattice, index: int) -> int:
     return {1: 1, 2: 4, 3: 3, 4: 2}[index] if lattice.hyperbolic else index
 
 
-def _sizes(lattice: Lattice, index: int) -> list[Any]:
+@lru_cache(_KEPT)
+def _series(lattice: Lattice, index: int) -> tuple[float, ...]:
+    return _floats(lattice, _sizes(lattice, index))
+
+
+@lru_cache(_KEPT)
+def _series_above(lattice: Lattice, index: int, depth: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    real, imaginary = _coefficients(lattice, index, depth)
+    return _floats(lattice, real), _floats(lattice, imaginary)
+
+
+def _sizes(lattice: Lattice, index: int) -> tuple[Any, ...]:
     """Coefficients of the series on the real axis; ``index`` is that of the function in use."""
     p, sign, sizes = lattice.nome, -1 if index in (1, 4) else 1, [mp.mpf(1)]
     for n in range(1, 20):
@@ -143,10 +159,10 @@ def _sizes(lattice: Lattice, index: int) -> list[Any]:
         if size <= _BEYOND_DIGITS * p**n:
             break
         sizes.append(sign**n * size)
-    return sizes
+    return tuple(sizes)
 
 
-def _coefficients(lattice: Lattice, index: int, depth: Any) -> tuple[list[Any], list[Any]]:
+def _coefficients(lattice: Lattice, index: int, depth: Any) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
     """Coefficients of the real and the imaginary series at a depth; ``index`` as for `_sizes`."""
     sizes = _sizes(lattice, index)
     angles = [order * lattice.scale * depth for order in _orders(index, sizes)]
@@ -155,35 +171,36 @@ def _coefficients(lattice: Lattice, index: int, depth: Any) -> tuple[list[Any], 
     else:
         backwards = 1 if index == 1 else -1
         even, odd = [mp.cosh(a) for a in angles], [backwards * mp.sinh(a) for a in angles]
-    return [s * e for s, e in zip(sizes, even, strict=True)], [s * o for s, o in zip(sizes, odd, strict=True)]
+    return tuple(map(mul, sizes, even)), tuple(map(mul, sizes, odd))
 
 
-def _orders(index: int, sizes: list[Any]) -> list[int]:
+def _orders(index: int, sizes: tuple[Any, ...]) -> list[int]:
     return [2 * n + (index in (1, 2)) for n in range(len(sizes))]
 
 
-def _floats(lattice: Lattice, coefficients: list[Any]) -> list[float]:
+def _floats(lattice: Lattice, coefficients: tuple[Any, ...]) -> tuple[float, ...]:
     """The coefficients worth keeping in double, cosh 2nv ≤ q′^(−n/2) allowed for."""
     root = mp.sqrt(lattice.nome) if lattice.hyperbolic else mp.mpf(1)
     least = _NEGLIGIBLE * abs(coefficients[0])
     kept = [n for n, c in enumerate(coefficients) if abs(c) > least * root**n]
-    return [float(c) for c in coefficients[: max(kept, default=0) + 1]]
+    return tuple(float(c) for c in coefficients[: max(kept, default=0) + 1])
 
 
-def _clenshaw(coefficients: list[float], x: Array, kind: int) -> Array:
+def _clenshaw(coefficients: tuple[float, ...], x: Array, kind: int) -> Array:
     """Σ a_n P_n(x), P_n the Chebyshev polynomials of the kind that starts 1, 2x − (x, 0, 1 or −1).
 
     Kinds 0, 2, −1, 1: cos nθ; sin (n+1)θ/sin θ; cos (n+½)θ/cos ½θ; sin (n+½)θ/sin ½θ, with x = cos θ
     (DLMF § 18.5(i)). The same holds for hyperbolic functions.
     """
-    after = np.zeros_like(x)
-    here = np.zeros_like(x)
+    twice: Array = 2 * x
+    after: Array = np.zeros(())
+    here: Array = np.zeros(())
     for a in reversed(coefficients):
-        after, here = here, a + 2 * x * here - after
+        after, here = here, a + (twice * here - after)
     if kind == 0:
         return here - x * after
     return here - {2: 0.0, -1: 1.0, 1: -1.0}[kind] * after
 
 
-def _dot(a: list[Any], b: list[Any]) -> Any:
-    return mp.fsum(x * y for x, y in zip(a, b, strict=True))
+def _dot(a: list[int], b: tuple[Any, ...]) -> Any:
+    return mp.fsum(map(mul, a, b))

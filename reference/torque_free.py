@@ -10,16 +10,19 @@ does not, n = L/|L| in body axes, e the axis that n circles and so with n·e > 0
 phase of the Cayley–Klein parameter α (Goldstein § 4.5), which has neither a pole nor a branch.
 """
 
+from typing import Any, NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
 from . import elliptic
+from .blocks import blocks
 from .checked import Array, finite, number, positive, principal_moments, times, unit_quaternion
 from .double_double import turning
 from .polhode import Polhode, direction, in_body_axes, is_point, polhode
 from .precise import mp
 from .quaternions import conjugate, product
-from .theta import doubled
+from .theta import Lattice, doubled
 
 
 def motion(
@@ -55,13 +58,15 @@ def motion(
     if is_point(moments, omega0):
         return _steady(q0, omega0, t)
     curve = polhode(moments, omega0)
-    # The start is one more time, so that q(0) = q0 holds whatever frame L was put in.
-    n, phase = direction(curve, np.append(t, 0.0))
-    from_L = _from_L(n, _half_turn(curve, phase, np.append(t, 0.0)))
-    since = product(conjugate(from_L[-1]), np.eye(4))
-    in_body = np.column_stack([in_body_axes(curve, since[:, :3]), since[:, 3]])
-    L_over_I = np.array([float(curve.L / moment) for moment in curve.moments])
-    return _unit(from_L[:-1] @ product(q0, in_body)), in_body_axes(curve, n[:-1] * L_over_I)
+    turn = _half_turn(curve)
+    to_world = _to_world(curve, turn, q0)
+    L_over_I = np.array([[float(curve.L / moment)] for moment in curve.moments])
+    q, omega = np.empty((t.size, 4)), np.empty((t.size, 3))
+    for here in blocks(t.size):
+        n, from_L = _from_L(curve, turn, t[here])
+        q[here] = _unit(to_world @ from_L).T
+        omega[here] = in_body_axes(curve, n * L_over_I).T
+    return q, omega
 
 
 def body_cone_rate(I1: float, I3: float, omega3: float) -> float:
@@ -85,45 +90,65 @@ def space_cone_rate(I1: float, I3: float, omega: npt.ArrayLike) -> float:
     return float(np.hypot(np.hypot(omega[0], omega[1]), I3 / I1 * omega[2]))
 
 
-def _steady(q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:
-    """Turning for ever about the axis it turns about, or not at all."""
-    omega = [mp.mpf(component) for component in omega0.tolist()]
-    speed = mp.norm(omega)
-    axis = [float(component / speed) if speed else 0.0 for component in omega]
-    cosine, sine = turning(speed / 2, 0, t)
-    turn = np.column_stack([*(sine * component for component in axis), cosine])
-    return _unit(product(q0, turn)), np.tile(omega0, (t.size, 1))
+class _HalfTurn(NamedTuple):
+    """φ/2 = ``rate``·t + arg θ4(u + i·``depth``) over the ``lattice``, but for a constant."""
+
+    rate: Any
+    lattice: Lattice
+    depth: Any
 
 
-def _half_turn(curve: Polhode, phase: elliptic.Phase, t: Array) -> elliptic.ComplexArray:
-    """exp(iφ/2) (n,) but for a constant turn.
+def _half_turn(curve: Polhode) -> _HalfTurn:
+    """What φ/2 is made of.
 
     φ̇/2 has its poles where Ad·dn u = −1, at u = ±i(K′ + a) with sn(a | 1 − m) = Ad; their residues are
     ±i/2, by the sign of Id − Ic. So φ/2 is a constant rate and the argument of a theta function with
-    twice the imaginary period, the one of dn.
+    twice the imaginary period, the one of dn. With m = 0, a symmetric top, φ̇ is constant.
     """
     Ac, _, Ad = curve.amplitudes
     Ic, _, Id = curve.moments
     m, m1, lattice = curve.modulus
-    rate = curve.L * (2 * curve.T / curve.L**2 + Ad / Id) / (2 * (1 + Ad))  # φ̇/2 where u = 0
-    periodic = np.ones(t.size, dtype=np.complex128)
-    # With m = 0 (a symmetric top) n·e is constant, and so is φ̇.
-    if m:
-        a = Ad * mp.elliprf(Ac**2, m + m1 * Ac**2, 1)
-        depth = mp.sign(Ic - Id) * (lattice.K_prime - a)
-        rate -= curve.rate * elliptic.turn_rate(doubled(lattice), 4, depth)
-        periodic = elliptic.turn(doubled(lattice), 4, depth, phase)
-    cosine, sine = turning(rate, 0, t)
-    return (cosine + 1j * sine) * periodic
+    at_start = curve.L * (2 * curve.T / curve.L**2 + Ad / Id) / (2 * (1 + Ad))  # φ̇/2 where u = 0
+    if not m:
+        return _HalfTurn(at_start, lattice, None)
+    a = Ad * mp.elliprf(Ac**2, m + m1 * Ac**2, 1)
+    depth, twice = mp.sign(Ic - Id) * (lattice.K_prime - a), doubled(lattice)
+    return _HalfTurn(at_start - curve.rate * elliptic.turn_rate(twice, 4, depth), twice, depth)
 
 
-def _from_L(n: Array, half_turn: elliptic.ComplexArray) -> Array:
-    """The attitude (n, 4) of the axes (c, s, d) in a fixed frame whose third axis is L."""
-    x, y, w = n[:, 1], -n[:, 0], 1 + n[:, 2]
-    C, S = half_turn.real, half_turn.imag
-    return _unit(np.stack([C * x - S * y, C * y + S * x, S * w, C * w], axis=-1))
+def _from_L(curve: Polhode, turn: _HalfTurn, t: Array) -> tuple[Array, Array]:
+    """L/|L| (3, n) along the axes (c, s, d), and these axes' attitude (4, n) in a frame of third axis L."""
+    n, phase = direction(curve, t)
+    cosine, sine = turning(turn.rate, 0, t)
+    if turn.depth is not None:
+        periodic = elliptic.turn(turn.lattice, 4, turn.depth, phase)
+        cosine, sine = (
+            cosine * periodic.real - sine * periodic.imag,
+            sine * periodic.real + cosine * periodic.imag,
+        )
+    x, y, w = n[1], -n[0], 1 + n[2]
+    return n, _unit(np.stack([cosine * x - sine * y, cosine * y + sine * x, sine * w, cosine * w]))
+
+
+def _to_world(curve: Polhode, turn: _HalfTurn, q0: Array) -> Array:
+    """The matrix (4, 4) that takes the attitude of `_from_L` to that of the body in the world."""
+    _, start = _from_L(curve, turn, np.zeros(1))
+    since = product(conjugate(start[:, 0]), np.eye(4))
+    in_body = np.column_stack([in_body_axes(curve, since[:, :3].T).T, since[:, 3]])
+    return product(q0, in_body).T
+
+
+def _steady(q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:
+    """Turning for ever about the axis it turns about, or not at all."""
+    omega = [mp.mpf(component) for component in omega0.tolist()]
+    speed = mp.norm(omega)
+    axis = [component / (speed or 1) for component in omega]
+    cosine, sine = turning(speed / 2, 0, t)
+    turn = np.column_stack([*(sine * float(component) for component in axis), cosine])
+    return _unit(product(q0, turn).T).T, np.tile(omega0, (t.size, 1))
 
 
 def _unit(q: Array) -> Array:
-    result: Array = q / np.linalg.norm(q, axis=-1, keepdims=True)
+    """Quaternions (4, n) of unit length."""
+    result: Array = q / np.sqrt(np.einsum("in,in->n", q, q))
     return result
