@@ -67,9 +67,10 @@ def accelerations(
 
     ``gravity`` g [m/s²], ``omega3`` the gyroscope's rate about e [rad/s]. The module's equations, each
     crossed with its direction, solved together. Raises InputError for what is below 0, a gyroscope of no
-    mass, I1 ≤ Ml², directions that are not unit vectors, or rates that are not across them.
+    mass, I1 ≤ Ml², a rope without length or moment, directions that are not unit vectors, or rates that
+    are not across them.
     """
-    system = _system(rope, gyroscope, gravity)
+    system = _moving(rope, gyroscope, gravity)
     n, n_rate = _direction("n", directions[0], rates[0])
     e, e_rate = _direction("e", directions[1], rates[1])
     across_n, across_e = np.eye(3) - np.outer(n, n), np.eye(3) - np.outer(e, e)
@@ -100,7 +101,7 @@ def steady_precession(
 
         Ω² cosχ (J sinχ + Msr) = g sinχ (Ms + P),  Ω² cosβ (I1c sinβ + Mlr) − I3ω3Ω sinβ + Mgl sinβ = 0.
 
-    Raises InputError as `accelerations` does, and for no gravity or a rope of neither length nor mass.
+    Raises InputError as `accelerations` does, but for a rope without length or moment, and for no gravity.
     """
     system = _system(rope, gyroscope, positive("gravity", gravity))
     beta, square = within("beta", beta, 0.0, np.pi), number("Omega", Omega) ** 2
@@ -130,12 +131,9 @@ def small_rates(
 
     The axle hangs below the rope, or stands ``upright`` on its end: σ = −1 or 1. Horizontal parts x + iy of
     n and e obey ν²(Aζ + Bη) = Cζ, ν²(Bζ + I1η) − σνI3ω3η = −σMglη with A = J + Ms², B = Msl, C = (Ms + P)g.
-    Below 0 the imaginary part is a growth rate. Raises InputError as `accelerations` does, and for a rope
-    of no length and no moment, whose direction means nothing.
+    Below 0 the imaginary part is a growth rate. Raises InputError as `accelerations` does.
     """
-    system = _system(rope, gyroscope, gravity)
-    if not system.rope:
-        raise InputError(f"rope: got {rope}, expected a length above 0 or a moment")
+    system = _moving(rope, gyroscope, gravity)
     sigma = 1.0 if upright else -1.0
     inertia = np.array([[system.rope, system.mixed], [system.mixed, system.axle]])
     stiffness = np.diag([system.rope_weight, -sigma * system.axle_weight])
@@ -157,6 +155,13 @@ def _system(rope: Rope, gyroscope: Gyroscope, gravity: float) -> _System:
             f"moments: got I1 = {I1}, expected more than M l² = {M * length**2}, about the rope's end"
         )
     return _System(J + M * s * s, M * s * length, I1, (M * s + P) * g, M * length * g, I3)
+
+
+def _moving(rope: Rope, gyroscope: Gyroscope, gravity: float) -> _System:
+    system = _system(rope, gyroscope, gravity)
+    if not system.rope:
+        raise InputError(f"rope: got {rope}, expected a length above 0 or a moment: n means nothing without")
+    return system
 
 
 def _direction(name: str, direction: npt.ArrayLike, rate: npt.ArrayLike) -> tuple[Array, Array]:
