@@ -72,10 +72,12 @@ def about_axis(inertia: npt.ArrayLike, axis: npt.ArrayLike) -> float:
     Source: Goldstein eq. (5.18).
     """
     direction = finite("axis", axis, (3,))
-    length = float(np.linalg.norm(direction))
-    if length == 0:
+    longest = float(np.abs(direction).max())
+    if longest == 0:
         raise InputError("axis: got (0, 0, 0), expected a direction")
-    n = direction / length
+    # Scaled first: the square of a tiny component would be 0.
+    n = direction / longest
+    n = n / np.linalg.norm(n)
     return float(n @ physical(inertia) @ n)
 
 
@@ -90,7 +92,7 @@ def lamina(plane: npt.ArrayLike) -> Array:
         raise InputError(f"plane: got an array of shape {block.shape}, expected (2, 2)")
     tensor = np.zeros((3, 3))
     tensor[:2, :2], tensor[2, 2] = block, np.trace(block)
-    return _body_tensor("plane", tensor, float(np.trace(block)))
+    return _body_tensor("plane", tensor, float(np.abs(tensor).max()))
 
 
 def principal(inertia: npt.ArrayLike) -> tuple[Array, Array]:

@@ -64,6 +64,15 @@ def test_third_coordinate_as_some_notes_print_it_sees_a_drift():
     assert abs(np.sqrt(m * M / (2 * m + M)) * ((eta1 + eta3) - np.sqrt(2) * eta2) - 1) > 0.1
 
 
+def test_equation_for_the_third_mode_lacks_a_mass_in_the_slides():
+    # −k a1 + [2k − (k/m)(1 + 2m/M)] a2 − k a3 = 0 is printed; the bracket is 2k − ω²M.
+    m, M, k = 16.0, 12.0, 5.0
+    a1, a2, a3 = co2_chain.modes(m, M)[:, 2]
+    square = k / m * (1 + 2 * m / M)
+    assert -k * a1 + (2 * k - square * M) * a2 - k * a3 == pytest.approx(0, abs=1e-14)
+    assert abs(-k * a1 + (2 * k - square) * a2 - k * a3) > 1
+
+
 def test_carbon_dioxide_as_measured():
     # Herzberg, Infrared and Raman Spectra: ν1 = 1388, ν3 = 2349 cm⁻¹. Springs alone predict the ratio
     # √(1 + 2·16/12) = 1.915 where 1.69 is measured: right to the 15 % that this model is known to be off.

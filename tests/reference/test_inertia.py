@@ -80,6 +80,11 @@ def test_moment_about_an_axis_is_the_sum_of_squared_distances(seed, axis):
     )
 
 
+def test_length_of_an_axis_does_not_matter():
+    for length in (1e-300, 1.0, 1e300):
+        assert inertia.about_axis(CUBE, [length, length, length]) == pytest.approx(2, rel=1e-15, abs=0)
+
+
 @given(seeds)
 def test_turning_the_body_turns_its_tensor(seed):
     m, r = cloud(seed)
@@ -186,6 +191,9 @@ def test_example_of_some_notes_is_no_inertia_tensor():
     # Its moments 2 ± √5 were worked out without a word about the negative one.
     with pytest.raises(InputError, match=r"plane: got principal moments \[-0\.236"):
         inertia.lamina([[1, 2], [2, 3]])
+    for negative in ([[-1, 0], [0, -1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]]):
+        with pytest.raises(InputError, match="none below 0"):
+            inertia.lamina(negative)
     with pytest.raises(InputError):
         inertia.principal([[1, 2], [2, 3]])
 
