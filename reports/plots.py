@@ -167,9 +167,14 @@ def _picture(
         "title": picture.title,
         "axes": list(picture.axes),
         "equal": picture.equal,
-        "box": [[_digits(x) for x in corner.tolist()] for corner in (low, high)],
+        "box": [_corner(corner, np.maximum(abs(low), abs(high))) for corner in (low, high)],
         "curves": [{"name": "truth", "engine": -1, "shown": True, **_packed(exact)}, *curves],
     }
+
+
+def _corner(corner: Array, size: Array) -> list[float]:
+    """The corner to the digits that are shown; what is only round-off beside the largest is zero."""
+    return [_digits(x) for x in np.where(abs(corner) < 1e-12 * size.max(), 0.0, corner).tolist()]
 
 
 def _reach(extent: Array, equal: bool) -> Array:

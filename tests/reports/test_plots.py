@@ -123,6 +123,17 @@ def test_one_curve_of_low_order_and_one_of_high_order_are_shown_at_first(results
         assert shown == ["truth", "mujoco Euler", "pinocchio RKMK4"]
 
 
+def test_a_box_that_ends_in_round_off_ends_at_zero(results, moved):
+    (motion,) = moved((SCENE,))
+
+    def almost(of, t):
+        exact = motion.scene.truth(of, t)
+        return replace(exact, omega=np.where(exact.omega < 0.2, 1.1e-16, exact.omega))
+
+    _, cone, _ = motion_figures(Motion(replace(motion.scene, truth=almost)), Digest(results).columns)
+    assert cone["box"][0] == [0.0, 0.0, 5.0]
+
+
 @pytest.mark.parametrize("height", [0.0, 3.0])
 def test_a_motion_that_rests_can_be_drawn(results, moved, height):
     def still(motion):
