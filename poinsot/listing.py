@@ -54,7 +54,7 @@ def outcome(found: Mapping[str, Any], folder: Path) -> str:
     lines += wrong[:SHOWN]
     if len(wrong) > SHOWN:
         lines.append(f"… and {len(wrong) - SHOWN} more, in the report")
-    return "\n".join([*lines, f"report: {folder / 'report.html'}"])
+    return "\n".join([*lines, *found["stale_deviations"], f"report: {folder / 'report.html'}"])
 
 
 def _complaints(cell: Mapping[str, Any]) -> list[str]:

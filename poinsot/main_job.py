@@ -13,7 +13,7 @@ from .adapters.runner import Request
 from .adapters.timing import Timing
 from .plan import Plan
 from .reference.errors import InputError
-from .reports import results, truth
+from .reports import deviations, results, truth
 from .reports.cell import Cell
 from .reports.judge import judge
 from .reports.results import CellRecord, Key
@@ -69,6 +69,7 @@ def run(
     ]
     facts = environment() | {
         "command": command,
+        "whole": laid.whole,
         "started": started.isoformat(timespec="seconds"),
         "workers": workers,
         "seconds": round(perf_counter() - clock, 1),
@@ -93,13 +94,16 @@ def report(
     motions = {record.key: _read(folder, record) for record in records if record.log}
     cells = [Cell.of(motion, known) for motion in motions.values()]
     silent = [_unjudged(cell, missing) for cell in cells if (missing := truth.without_constant(cell))]
+    verdicts = judge(motions.values())
+    stale = deviations.unmatched(verdicts, deviations.recorded()) if facts.get("whole") else []
     found = results.results(
         records,
-        judge(motions.values()),
+        verdicts,
         results.precision_rows(cells, seconds),
         known,
         facts,
         list(dict.fromkeys([*notes, *silent])),
+        stale,
     )
     pages.write(folder, found, cells)
     return found

@@ -11,6 +11,7 @@ from .reference.errors import InputError
 from .reference.spelling import nearest
 from .reports.results import CellRecord
 from .reports.verdict import Status
+from .scenarios.registry import scenes as all_scenes
 from .scenarios.scene import Scene
 
 #: How often a cell at the scene's own step is run, so that its determinism can be judged.
@@ -24,6 +25,8 @@ class Plan:
     records: list[CellRecord] = field(default_factory=list)
     requests: dict[tuple[str, str, str, float], Request] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    #: Whether nothing is missing, scene, engine, scheme or step: every record must then find its check.
+    whole: bool = False
 
 
 def plan(
@@ -46,6 +49,8 @@ def plan(
             for scheme in engine.schemes:
                 if not schemes or scheme.name in schemes:
                     _add(laid, scene, spec, engine, scheme, steps)
+    everything = len(scenes) == len(all_scenes()) and len(loaded) == len(registry.names())
+    laid.whole = everything and not (schemes or steps)
     if steps:
         laid.notes.append("Only the steps asked for were run; order needs a ladder of at least five.")
     return laid

@@ -6,20 +6,26 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from ..scenarios.registry import scenes as all_scenes
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Provenance, Trajectory
-from . import order, setup, truth, twin
+from . import deviations, order, setup, truth, twin
 from .cell import Cell
+from .deviations import Deviation
 from .verdict import Status, Verdict
 
 
-def judge(trajectories: Iterable[Trajectory], scenes: Mapping[str, Scene] | None = None) -> list[Verdict]:
+def judge(
+    trajectories: Iterable[Trajectory],
+    scenes: Mapping[str, Scene] | None = None,
+    known: Iterable[Deviation] | None = None,
+) -> list[Verdict]:
     """Every verdict that these trajectories allow, in their order.
 
     One trajectory is held against the truth, its invariants, its setup and itself; order needs
     several steps of one scheme, twin several engines at one step. ``scenes`` are those of Poinsot
-    unless given. Raises ``InputError`` for a trajectory of unknown origin.
+    unless given, ``known`` the deviations on record. Raises ``InputError`` for a trajectory of
+    unknown origin.
     """
-    known = dict(all_scenes() if scenes is None else scenes)
-    cells = [Cell.of(trajectory, known) for trajectory in trajectories]
+    there = dict(all_scenes() if scenes is None else scenes)
+    cells = [Cell.of(trajectory, there) for trajectory in trajectories]
     broken = [verdict for cell in cells for verdict in _finite(cell)]
     sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
     alone = [v for cell in sound for v in (*truth.check(cell), *setup.check(cell), *setup.determinism(cell))]
@@ -28,7 +34,8 @@ def judge(trajectories: Iterable[Trajectory], scenes: Mapping[str, Scene] | None
     together = [v for group in ladders for v in order.check(group)] + [
         v for group in twins for v in twin.check(group)
     ]
-    return broken + alone + together
+    found = broken + alone + together
+    return deviations.applied(found, deviations.recorded() if known is None else known)
 
 
 def _finite(cell: Cell) -> list[Verdict]:

@@ -63,8 +63,12 @@ def results(
     scenes: Mapping[str, Scene],
     environment: Mapping[str, Any],
     notes: Sequence[str],
+    stale: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Everything about a run as a dictionary of plain values, stable in its order."""
+    """Everything about a run as a dictionary of plain values, stable in its order.
+
+    ``stale`` are sentences on recorded deviations that match no check of a whole run.
+    """
     by_cell: dict[Key, list[Verdict]] = defaultdict(list)
     for verdict in verdicts:
         by_cell[(verdict.scene, verdict.engine, verdict.scheme, verdict.dt)].append(verdict)
@@ -76,6 +80,7 @@ def results(
         "cells": [_cell(record, by_cell[record.key]) for record in records],
         "work_precision": [dict(row) for row in work_precision],
         "notes": list(notes),
+        "stale_deviations": list(stale),
     }
 
 
@@ -147,11 +152,11 @@ def worst(statuses: Iterable[Status]) -> Status:
 
 
 def exit_code(found: Mapping[str, Any]) -> int:
-    """What a run ends with: 3 if an engine crashed, else 1 if a check fails, else 0."""
+    """What a run ends with: 3 if an engine crashed, else 1 if a check fails or a record is stale, else 0."""
     statuses = {Status(cell["status"]) for cell in found["cells"]}
     if Status.ERROR in statuses:
         return 3
-    return 1 if statuses & {Status.FAIL, Status.FIXED} else 0
+    return 1 if statuses & {Status.FAIL, Status.FIXED} or found["stale_deviations"] else 0
 
 
 def _row(cell: Cell, observable: Observable) -> dict[str, Any]:

@@ -3,6 +3,18 @@
 from dataclasses import dataclass
 from enum import Enum
 
+#: The kinds of check there are.
+CHECKS = (
+    "truth",
+    "order",
+    "twin",
+    "acceleration",
+    "invariant",
+    "setup",
+    "stability",
+    "determinism",
+)
+
 
 class Status(Enum):
     """How a check ended; the description is a sentence for people."""
