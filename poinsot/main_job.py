@@ -133,8 +133,8 @@ def again(folder: Path) -> dict[str, Any]:
 def _unjudged(cell: Cell, observables: Sequence[str]) -> str:
     p = cell.provenance
     return (
-        f"{p.engine} {p.scheme} in {p.scene}: no error constant is recorded for {', '.join(observables)}; "
-        "judged by order and limit alone."
+        f"{p.engine} {p.scheme} in {p.scene} at dt {p.dt:g} s: no error constant is recorded for "
+        f"{', '.join(observables)}; judged by order and limit alone."
     )
 
 

@@ -44,10 +44,11 @@ def _allowed(cell: Cell, observable: Observable) -> tuple[float, str] | None:
     if cell.predicted is not None:
         own = float(observable.distance(cell.scene, cell.predicted, cell.truth).max())
         return own * (1 + 1e-6) + floor, "error of the scheme, predicted in closed form, and round-off"
-    constant = cell.scene.error_constant(cell.provenance.twin, observable)
-    if constant is None:
-        return None
     p = cell.provenance
+    constant = cell.scene.error_constant(p.twin, observable)
+    if constant is None or p.dt > max(cell.scene.ladder(p.order, p.twin)) * (1 + 1e-9):
+        # A constant holds on the ladder it was measured on and below it, not at coarser steps.
+        return None
     return (
         MARGIN * constant * p.dt**p.order + floor,
         f"{MARGIN} × {constant:.3g}·dt^{p.order}, as recorded, and round-off",

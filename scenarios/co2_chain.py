@@ -114,7 +114,7 @@ def _chain(variant: str, amplitudes: Vector) -> Scene:
         ),
         pictures=(
             pictures.against_time(
-                "Stretch of the left bond", "x2 − x1 − a [m]", lambda scene, m: m.joint_position[:, 1]
+                "Displacement of the left mass", "x [m]", lambda scene, m: m.joint_position[:, 0]
             ),
         ),
         ladders={
@@ -134,8 +134,8 @@ _WORDS = {
 }
 
 SCENES = (
+    _chain("mixture", (0.02, 0.03, 0.04)),
     _chain("translation", (0.05, 0.0, 0.0)),
     _chain("symmetric", (0.0, 0.05, 0.0)),
     _chain("antisymmetric", (0.0, 0.0, 0.05)),
-    _chain("mixture", (0.02, 0.03, 0.04)),
 )

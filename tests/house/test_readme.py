@@ -3,6 +3,10 @@
 import re
 from pathlib import Path
 
+import pytest
+
+import poinsot
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -19,3 +23,23 @@ def test_the_two_commands_are_run_word_for_word():
     assert "pytest" in check
     assert install in script
     assert check in script
+
+
+def test_the_example_runs():
+    pytest.importorskip("mujoco")
+    pytest.importorskip("pinocchio")
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    module = {}
+    exec(example, module)
+    assert module["q"].shape == (3, 4)
+    assert {"truth", "invariant", "setup", "determinism"} <= {
+        v.check for v in module["poinsot"].judge(module["runs"])
+    }
+
+
+def test_every_scene_is_named():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for scene in poinsot.scenes().values():
+        line = next(line for line in text.splitlines() if line.startswith(f"| `{scene.name}` |"))
+        assert scene.variant in line
