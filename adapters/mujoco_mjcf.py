@@ -10,8 +10,6 @@ import numpy as np
 def mjcf(spec: Any, integrator: str, switched_off: Iterable[str]) -> str:
     """MJCF of the bodies, joints and options of an ``MjSpec``; MuJoCo reads the same bits back."""
     root = Element("mujoco", model=spec.modelname)
-    # Angles in radians, and a free body's frame left where it is.
-    SubElement(root, "compiler", angle="radian", alignfree="false")
     option = spec.option
     element = SubElement(
         root,

@@ -440,10 +440,8 @@ def test_mujocos_own_text_has_six_digits(random_tree):
     assert np.abs(copied.body_inertia - engine._model.body_inertia).max() > 1e-9
 
 
-@EVERY_SCHEME
-@pytest.mark.parametrize("seed", [0, 1, 2, 3])
-def test_the_text_is_the_model_to_the_last_bit(random_tree, scheme, seed):
-    engine = built(random_tree(seed), scheme, 1 / 3000)
+def same_model(engine):
+    """The model that MuJoCo makes of the engine's text, once it is seen to be the engine's to the bit."""
     name, text = engine.model_text()
     assert name == "model.xml"
     with warnings.catch_warnings():
@@ -455,11 +453,26 @@ def test_the_text_is_the_model_to_the_last_bit(random_tree, scheme, seed):
             np.testing.assert_array_equal(value, getattr(engine._model, field), err_msg=field)
     for field in ("timestep", "gravity", "integrator", "disableflags", "enableflags"):
         assert np.all(getattr(copied.opt, field) == getattr(engine._model.opt, field)), field
+    return copied
+
+
+@EVERY_SCHEME
+@pytest.mark.parametrize("seed", [0, 1, 2, 3])
+def test_the_text_is_the_model_to_the_last_bit(random_tree, scheme, seed):
+    engine = built(random_tree(seed), scheme, 1 / 3000)
+    copied = same_model(engine)
     data = mujoco.MjData(copied)
     data.qpos[:], data.qvel[:] = engine._data.qpos, engine._data.qvel
     engine.step(100)
     mujoco.mj_step(copied, data, nstep=100)
     assert data.qpos.tobytes() == engine._data.qpos.tobytes()
+
+
+@pytest.mark.parametrize(("offset", "simple"), [(0.0, 1), (9e-7, 0), (0.1, 0)])
+def test_the_text_says_which_mass_matrices_are_diagonal(scene_of, offset, simple):
+    body = Body("body", 1.0, diagonal(1, 2, 2.5), (Joint("free", "free"),), center_of_mass=(offset, 0.0, 0.0))
+    engine = built(scene_of([body], [0] * 6 + [1], [0] * 6))
+    assert same_model(engine).body_simple[1] == engine._model.body_simple[1] == simple
 
 
 def test_closing_lets_go_and_may_be_repeated(top):

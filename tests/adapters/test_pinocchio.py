@@ -242,6 +242,23 @@ def test_welded_bodies_are_moved_and_seen(scene_of, links_of, parent):
     assert engine.readback().values["body/welded/mass"] == 2.0
 
 
+@EVERY_SCHEME
+@pytest.mark.parametrize("seed", [0, 1])
+def test_each_scheme_has_its_declared_order_in_attitude(random_tree, scheme, seed):
+    scene = random_tree(seed)
+    exact = built(scene, "RKMK4", 2e-4)
+    exact.step(1000)
+    errors = []
+    for dt, steps in ((4e-3, 50), (2e-3, 100)):
+        engine = built(scene, scheme, dt)
+        engine.step(steps)
+        there = Rotation.from_quat(exact.state().quaternion)
+        errors.append(
+            np.linalg.norm((Rotation.from_quat(engine.state().quaternion).inv() * there).magnitude())
+        )
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(SCHEMES[scheme].order, abs=0.2)
+
+
 # What is said of it
 
 
