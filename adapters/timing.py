@@ -11,6 +11,8 @@ from .engine import Engine, Scheme
 
 #: Repeats of one cell, and how many are enough where a single one takes longer than ``LONG`` [s].
 REPEATS, FEW, LONG = 10, 3, 2.0
+#: Steps of the run that is not counted, which fills caches and tells how long the others will take.
+WARM_UP = 2000
 
 
 @dataclass(frozen=True)
@@ -44,8 +46,9 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
     steps = scene.samples * scene.steps_per_sample(dt)
     machine = engine()
     try:
-        warm_up = _once(machine, scene, scheme, dt, steps)
-        repeats = FEW if warm_up > LONG else REPEATS
+        warm_up = min(steps, WARM_UP)
+        expected = _once(machine, scene, scheme, dt, warm_up) * steps / warm_up
+        repeats = FEW if expected > LONG else REPEATS
         return Timing(steps, tuple(_once(machine, scene, scheme, dt, steps) for _ in range(repeats)))
     finally:
         machine.close()

@@ -101,8 +101,8 @@ def _chain(variant: str, amplitudes: Vector) -> Scene:
         bodies=bodies,
         q0=tuple(np.diff(displacement, prepend=0.0).tolist()),
         v0=tuple(np.diff(velocity, prepend=0.0).tolist()),
-        duration=5.0,
-        samples=250,
+        duration=2.5,
+        samples=125,
         truth=_truth,
         scheme_motion=_scheme_motion,
         observables=(
