@@ -1,0 +1,302 @@
+"""PyBullet, without shapes, contact or motors: trees in reduced, free bodies also in maximal coordinates."""
+
+import importlib.metadata
+import math
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..reference.checked import Array, finite
+from ..reference.quaternions import conjugate, product, rotated
+from ..scenarios.body import IDENTITY
+from ..scenarios.scene import FEATURES, Scene
+from . import pybullet_limits as limits
+from . import pybullet_probes as probes
+from .c_output import caught
+from .engine import EngineError, Scheme, Setup, State
+from .pybullet_layout import Place, layout, of_ball, of_base, of_inertia
+from .pybullet_urdf import trees, urdf
+
+with caught():  # PyBullet prints when it was built
+    import pybullet as p
+
+_REDUCED, _MAXIMAL = "reduced coordinates", "maximal coordinates"
+#: Steps taken in one call. Only with powers of two is PyBullet's clock exact, so that no step is lost.
+_BATCHES = (256, 32, 1)
+
+
+class PyBullet:
+    """PyBullet behind the calls of ``Engine``."""
+
+    name: ClassVar[str] = "pybullet"
+    schemes: ClassVar[tuple[Scheme, ...]] = (
+        Scheme(_REDUCED, 1, "semi-implicit Euler", {}),
+        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.JOINTED),
+    )
+    features: ClassVar[frozenset[str]] = frozenset(FEATURES)
+    settings: ClassVar[dict[str, str]] = {
+        "damping": "none, linear or angular (PyBullet's own default in reduced coordinates is 0.04)",
+        "velocity limit": "none (PyBullet's own default in reduced coordinates is 100)",
+        "motors": "without force (PyBullet's own hold every joint)",
+        "sleeping": "off",
+        "springs": "joint forces of ours at the start of each step; PyBullet has none",
+        "batches": "without springs and dampers up to 256 steps in one call, by numSubSteps",
+    }
+
+    @staticmethod
+    def version() -> str:
+        """Version of the installed engine."""
+        return importlib.metadata.version("pybullet")
+
+    def __init__(self) -> None:
+        self._clients: dict[str, int] = {}
+
+    def build(self, scene: Scene, scheme: Scheme, dt: float) -> None:
+        """Build ``scene`` at its initial state.
+
+        Raises ``InputError`` for what PyBullet would drop without a word: ``pybullet_limits``.
+        """
+        self._maximal = scheme.name == _MAXIMAL
+        limits.refuse(scene, scheme, self._maximal)
+        self._scene, self._bare = scene, probes.without(scene, "gravity", "stiffness", "damping")
+        self._copy: _World | None = None
+        for number, joint in enumerate(scene.scalar_joints):
+            if not self._response(number, np.array(scene.q0)).any():
+                limits.refuse_frozen(scene, joint.name)
+        self._world = _World(self._client("run"), scene, self._maximal, dt)
+        self._world.place(np.array(scene.q0), np.array(scene.v0))
+
+    def step(self, n: int) -> None:
+        """Advance by ``n`` steps, in PyBullet's own loop where there is no spring or damper."""
+        self._world.advance(n)
+
+    def state(self) -> State:
+        """Where everything is now; raises ``EngineError`` if not finite or past what PyBullet can turn."""
+        return self._world.state()
+
+    def readback(self) -> Setup:
+        """How PyBullet is set up: what it tells, and what a copy of the scene does when it is moved."""
+        scene, numbers = self._scene, range(len(self._scene.scalar_joints))
+        tried = probes.of_world(scene, self._loaded(self._bare).change)
+        displaced = [self._response(i, probes.displaced(scene, i)) for i in numbers]
+        resting = [self._response(i, probes.rest(scene)) for i in numbers]
+        change = self._loaded(probes.without(scene, "gravity")).change
+        tried |= probes.of_joints(scene, change, displaced, resting)
+        return Setup({**self._world.told(), **tried}, tuple(tried))
+
+    def acceleration(self, q: Array, v: Array) -> Array:
+        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.
+
+        The change of velocity over one step: in reduced coordinates a step of 1 s, exact for the
+        scheme; in maximal ones the limit of small steps, good to about 1e-12 |ω|².
+        """
+        q, v = finite("q", q, (len(self._scene.q0),)), finite("v", v, (len(self._scene.v0),))
+        change = self._loaded(self._scene).change
+        return probes.limit(change, q, v) if self._maximal else change(q, v, 1.0, 1)
+
+    def model_text(self) -> tuple[str, str]:
+        """The model as URDF, with every digit; of several trees one document after the other."""
+        return "model.urdf", "\n".join(urdf(self._scene, tree) for tree in trees(self._scene))
+
+    def close(self) -> None:
+        """Let go of PyBullet's worlds."""
+        while self._clients:
+            p.disconnect(self._clients.popitem()[1])
+        self._copy = None
+
+    def _client(self, name: str) -> int:
+        if name not in self._clients:
+            self._clients[name] = p.connect(p.DIRECT)
+        return self._clients[name]
+
+    def _loaded(self, scene: Scene) -> "_World":
+        """A copy of the scene, in a world of its own, that may be moved at will."""
+        if self._copy is None or self._copy.scene is not scene:
+            self._copy = _World(self._client("copy"), scene, self._maximal, 1.0)
+        return self._copy
+
+    def _response(self, number: int, q: Array) -> Array:
+        """Acceleration (nv,) from a unit of force in this hinge or slide at ``q``, if nothing else acts."""
+        return self._loaded(self._bare).change(q, np.zeros(len(self._scene.v0)), 1.0, 1, number)
+
+
+class _World:
+    """A scene in one of PyBullet's clients."""
+
+    def __init__(self, client: int, scene: Scene, maximal: bool, dt: float) -> None:
+        self.client, self.scene, self.dt, self._size = client, scene, dt, 0
+        p.resetSimulation(physicsClientId=client)
+        p.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=client)
+        p.setGravity(*scene.gravity, physicsClientId=client)
+        self._batch(1)
+        uids = {_load(client, scene, tree, maximal): tree for tree in trees(scene)}
+        links = dict(named for uid in uids for named in _quieted(client, uid))
+        self._at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
+        self._springs, self._damped = self._at.springs, any(joint.damping for joint in scene.joints)
+        frames = [_inertial_frame(client, *place) for place in self._at.bodies]
+        self._center, self._axes = (np.array(part) for part in zip(*frames, strict=True))
+        self._carried = np.vstack([self._axes, IDENTITY])
+
+    def place(self, q: Array, v: Array) -> None:
+        """Put everything at these coordinates, laid out as the scene's."""
+        for body, uid, at_q, at_v in self._at.free:
+            center, axes = self._center[body], self._axes[body]
+            position, turn, velocity, omega = of_base(q[at_q], v[at_v], center, axes)
+            p.resetBasePositionAndOrientation(uid, position, turn, self.client)
+            p.resetBaseVelocity(uid, velocity, omega, self.client)
+        for uid, link, carried, at_q, at_v in self._at.balls:
+            turn, omega = of_ball(q[at_q], v[at_v], self._carried[carried])
+            p.resetJointStateMultiDof(uid, link, turn, omega, self.client)
+        for uid, link, i, j, _ in self._at.scalars:
+            p.resetJointState(uid, link, q[i], v[j], self.client)
+
+    def advance(self, n: int) -> None:
+        """Take ``n`` steps."""
+        if self._springs:
+            self._pull(n)
+            return
+        # PyBullet applies joint damping once a call, and not once a step.
+        for size in (1,) if self._damped else _BATCHES:
+            calls, n = divmod(n, size)
+            if calls:
+                self._batch(size)
+            for _ in range(calls):
+                p.stepSimulation(self.client)
+
+    def change(self, q: Array, v: Array, dt: float, steps: int, pushed: int | None = None) -> Array:
+        """Change of the velocities (nv,) from ``q`` and ``v`` over some steps, by their duration.
+
+        ``pushed`` is the number of a hinge or slide that a unit of force acts in over the first step.
+        """
+        self.dt, self._size = dt, 0
+        self._batch(1)
+        self.place(q, v)
+        before = self._rates()
+        if pushed is not None:
+            uid, link, *_ = self._at.scalars[pushed]
+            p.setJointMotorControl2(uid, link, p.TORQUE_CONTROL, force=1.0, physicsClientId=self.client)
+        self.advance(steps)
+        change = (self._rates() - before) / (steps * dt)
+        for body, _, at_q, at_v in self._at.free:
+            change[at_v] = probes.at_origin(change[at_v], q[at_q][3:], v[at_v][3:], self._center[body])
+        return change
+
+    def state(self) -> State:
+        """Where everything is now."""
+        state = State(*self._bodies(), *self._joints())
+        limits.refuse_broken(state, self._at.turning(self._rates()), self.dt)
+        return state
+
+    def told(self) -> dict[str, Any]:
+        """What PyBullet says of its setup."""
+        engine = p.getPhysicsEngineParameters(self.client)
+        values: dict[str, Any] = {
+            "gravity": np.array([engine[f"gravityAcceleration{axis}"] for axis in "XYZ"]),
+            "dt": engine["fixedTimeStep"] / max(1, engine["numSubSteps"]),
+        }
+        bodies = zip(self.scene.bodies, self._at.bodies, self._center, self._axes, strict=True)
+        for body, place, center, axes in bodies:
+            mass, _, moments, *_ = p.getDynamicsInfo(*place, self.client)
+            values |= of_inertia(body.name, mass, moments, center, axes)
+        return values
+
+    def _batch(self, size: int) -> None:
+        """Make a call of so many steps."""
+        if size != self._size:
+            steps, whole = (0 if size == 1 else size), size * self.dt
+            p.setPhysicsEngineParameter(fixedTimeStep=whole, numSubSteps=steps, physicsClientId=self.client)
+            self._size = size
+
+    def _pull(self, n: int) -> None:
+        """Take ``n`` steps, each after handing PyBullet the forces of the springs."""
+        read, push, step, client = (
+            p.getJointStates,
+            p.setJointMotorControlArray,
+            p.stepSimulation,
+            self.client,
+        )
+        springs, torque = self._springs, p.TORQUE_CONTROL
+        for _ in range(n):
+            for uid, links, pulls in springs:
+                pulled = [k * state[0] for k, state in zip(pulls, read(uid, links, client), strict=True)]
+                push(uid, links, torque, forces=pulled, physicsClientId=client)
+            step(client)
+
+    def _bodies(self) -> tuple[Array, Array, Array, Array]:
+        """Positions, quaternions, velocities and ω of the bodies, shapes and frames as in ``State``."""
+        count = len(self._at.bodies)
+        position, quaternion, velocity, omega = (np.empty((count, width)) for width in (3, 4, 3, 3))
+        for body, uid, _, _ in self._at.free:
+            position[body], quaternion[body] = p.getBasePositionAndOrientation(uid, self.client)
+            velocity[body], omega[body] = p.getBaseVelocity(uid, self.client)
+        for uid, bodies in self._at.linked.items():
+            # Unless asked for forward kinematics (the last 1), PyBullet tells where links once were. It
+            # tells the frames of links (4 and 5) in single precision, those of their inertia in double.
+            states = p.getLinkStates(uid, [self._at.bodies[body][1] for body in bodies], 1, 1, self.client)
+            for body, (center, turn, *_, linear, angular) in zip(bodies, states, strict=True):
+                position[body], quaternion[body], velocity[body], omega[body] = center, turn, linear, angular
+        quaternion = product(quaternion, conjugate(self._axes))
+        return position, quaternion, velocity, rotated(conjugate(quaternion), omega)
+
+    def _joints(self) -> tuple[Array, Array]:
+        """Positions and velocities (j,) of the hinges and slides."""
+        found = np.empty((2, len(self._at.scalars)))
+        for uid, numbers in self._at.hinged.items():
+            states = p.getJointStates(uid, [self._at.scalars[i].link for i in numbers], self.client)
+            found[:, numbers] = np.array([state[:2] for state in states]).T
+        return found[0], found[1]
+
+    def _rates(self) -> Array:
+        """Velocities (nv,) as the scene lays them out, but of free bodies' centres, and ω in world axes."""
+        rates = np.empty(len(self.scene.v0))
+        for _, uid, _, at_v in self._at.free:
+            rates[at_v] = np.ravel(p.getBaseVelocity(uid, self.client))
+        for uid, link, carried, _, at_v in self._at.balls:
+            omega = np.array(p.getJointStateMultiDof(uid, link, self.client)[1])
+            rates[at_v] = rotated(self._carried[carried], omega)
+        rates[[scalar.v for scalar in self._at.scalars]] = self._joints()[1]
+        return rates
+
+
+def _load(client: int, scene: Scene, tree: list[int], maximal: bool) -> int:
+    """Load one tree, its joints at zero and its base at the origin; PyBullet's number for it."""
+    with tempfile.TemporaryDirectory() as folder, caught() as said:
+        path = Path(folder) / "model.urdf"  # never the same folder: PyBullet remembers files by name
+        path.write_text(urdf(scene, tree))
+        flags = p.URDF_USE_INERTIA_FROM_FILE
+        try:
+            uid = p.loadURDF(str(path), useMaximalCoordinates=maximal, flags=flags, physicsClientId=client)
+        except p.error as error:
+            raise EngineError(f"PyBullet refuses {scene.full_name}: {error}") from error
+    limits.refuse_said(scene, "".join(said))
+    return int(uid)
+
+
+def _quieted(client: int, uid: int) -> Iterator[tuple[str, Place]]:
+    """Take from a tree what PyBullet adds by itself; the places of its joints by name."""
+    p.changeDynamics(
+        uid, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,
+        activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=client,
+    )  # fmt: skip
+    still = {"targetPosition": IDENTITY, "physicsClientId": client}
+    for link in range(p.getNumJoints(uid, client)):
+        _, name, kind, *_ = p.getJointInfo(uid, link, client)
+        if kind == p.JOINT_SPHERICAL:
+            p.setJointMotorControlMultiDof(uid, link, p.POSITION_CONTROL, force=[0, 0, 0], **still)
+        elif kind != p.JOINT_FIXED:
+            p.setJointMotorControl2(uid, link, p.VELOCITY_CONTROL, force=0, physicsClientId=client)
+        yield name.decode(), (uid, link)
+
+
+def _inertial_frame(client: int, uid: int, link: int) -> tuple[Array, Array]:
+    """Centre of mass (3,) and turn (4,) to the principal axes in a link's frame, right after loading.
+
+    A base that was put at the origin is where its inertial frame is in its own; ``getDynamicsInfo``
+    would tell of memory never written in maximal coordinates.
+    """
+    base = p.getBasePositionAndOrientation(uid, client)
+    frame = base if link < 0 else p.getLinkState(uid, link, 0, 0, client)[2:4]
+    return np.array(frame[0]), np.array(frame[1])
