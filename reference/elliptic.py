@@ -61,7 +61,7 @@ class ThirdKind(NamedTuple):
 def modulus(m: Any, m1: Any) -> Modulus:
     """The modulus of parameter ``m`` in [0, 1] with ``m1`` = 1 − m, both exact (mpmath numbers or floats).
 
-    K = π/(2 agm(1, k′)), K′ = π/(2 agm(1, k)): Gauss; Whittaker & Watson § 22.301, DLMF § 19.8(i).
+    K = π/(2 agm(1, k′)), K′ = π/(2 agm(1, k)): Gauss; DLMF § 19.8(i).
     Raises InputError outside [0, 1], or where the two do not add up to 1.
     """
     m, m1 = mp.mpf(m), mp.mpf(m1)
@@ -146,8 +146,7 @@ def third_kind(modulus: Modulus, n: Any, n_above_m: Any = None, one_minus_n: Any
     """∫du/(1 − n sn²u) in the circular cases n < 0 and m < n < 1, split as `ThirdKind` says.
 
     With sn(ia) = 1/√n, or sn(K + ia) = 1/√n, the integrand's poles are zeros of θ1(z ± iπa/2K), or of θ2
-    (Jacobi; Whittaker & Watson § 22.74, DLMF § 19.7(iii)). ``n_above_m`` = n − m and ``one_minus_n`` may
-    be given where those differences would lose digits. Raises InputError for other n.
+    (Jacobi; Whittaker & Watson § 22.74). ``n_above_m`` = n − m and ``one_minus_n`` may be given where those differences would lose digits. Raises InputError for other n.
     """
     n = mp.mpf(n)
     above = n - modulus.m if n_above_m is None else n_above_m

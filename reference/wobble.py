@@ -2,7 +2,7 @@
 
 About axis k, with i and j the next two in cyclic order, Euler's equations to first order are ω̇i = −Ωi ωj and
 ω̇j = Ωj ωi, where Ωi = ωk (Ik − Ij)/Ii and Ωj = ωk (Ik − Ii)/Ij (Landau & Lifshitz, *Mechanics*, § 37; Taylor
-§ 10.8; Fetter & Walecka § 28): an ellipse at the rate √(ΩiΩj), or growth at √(−ΩiΩj).
+§ 10.8): an ellipse at the rate √(ΩiΩj), or growth at √(−ΩiΩj).
 """
 
 import math
