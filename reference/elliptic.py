@@ -146,7 +146,8 @@ def third_kind(modulus: Modulus, n: Any, n_above_m: Any = None, one_minus_n: Any
     """∫du/(1 − n sn²u) in the circular cases n < 0 and m < n < 1, split as `ThirdKind` says.
 
     With sn(ia) = 1/√n, or sn(K + ia) = 1/√n, the integrand's poles are zeros of θ1(z ± iπa/2K), or of θ2
-    (Jacobi; Whittaker & Watson § 22.74). ``n_above_m`` = n − m and ``one_minus_n`` may be given where those differences would lose digits. Raises InputError for other n.
+    (Jacobi; Whittaker & Watson § 22.74). ``n_above_m`` = n − m and ``one_minus_n`` may be given where those
+    differences would lose digits. Raises InputError for other n.
     """
     n = mp.mpf(n)
     above = n - modulus.m if n_above_m is None else n_above_m
