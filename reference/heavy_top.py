@@ -6,13 +6,18 @@ are: p_γ = I3ω3, p_α = the vertical angular momentum, and E′ (Goldstein, *C
 & Lifshitz, *Mechanics*, § 35, problem 1; Fetter & Walecka, § 29).
 """
 
+from collections.abc import Callable, Sequence
+from functools import partial
+
 import numpy as np
 import numpy.typing as npt
 
+from .blocks import blocks
 from .checked import Array, number, times
 from .errors import InputError
 from .heavy_top_attitude import nutating
 from .heavy_top_constants import (
+    Constants,
     constants,
     is_steady,
     is_weightless,
@@ -20,7 +25,7 @@ from .heavy_top_constants import (
     real,
     weight_moment,
 )
-from .heavy_top_steady import steady, weightless
+from .heavy_top_steady import Triple, steady, weightless
 from .precise import mp
 
 #: (I3ω3)² may be short by this of what regular precession asks, so that the threshold's own spin will do [1].
@@ -69,15 +74,26 @@ def motion(
     x, y, z, w = (float(v) for v in np.asarray(q0, dtype=np.float64) / np.linalg.norm(q0))
     w1, w2, w3 = (float(v) for v in np.asarray(omega0, dtype=np.float64))
     start = complex(w, z), complex(x, y), complex(w1, w2)
-    if is_weightless(fixed, float(np.abs(when).max(initial=0.0))):
-        alpha, beta, across = weightless(fixed, start, when)
-    elif is_steady(fixed):
-        alpha, beta, across = steady(fixed, start, when)
-    else:
-        alpha, beta, across = nutating(fixed, start, when)
-    q = np.column_stack([beta.real, beta.imag, alpha.imag, alpha.real])
-    q /= np.linalg.norm(q, axis=1, keepdims=True)
-    return q, np.column_stack([across.real, across.imag, np.full(when.size, w3)])
+    follow = _follower(fixed, start, float(np.abs(when).max(initial=0.0)))
+    q, omega = np.empty((when.size, 4)), np.full((when.size, 3), w3)
+    for here in blocks(when.size):
+        alpha, beta, across = follow(when[here])
+        # Of unit length but for rounding, which this takes out.
+        size = np.sqrt(alpha.real**2 + alpha.imag**2 + beta.real**2 + beta.imag**2)
+        parts = (beta.real, beta.imag, alpha.imag, alpha.real)
+        for column, part in enumerate(parts):
+            np.divide(part, size, out=q[here, column])
+        omega[here, 0], omega[here, 1] = across.real, across.imag
+    return q, omega
+
+
+def _follower(fixed: Constants, start: Sequence[complex], latest: float) -> Callable[[Array], Triple]:
+    """The motion as a function of times, none later than ``latest`` [s] in size."""
+    if is_weightless(fixed, latest):
+        return partial(weightless, fixed, start)
+    if is_steady(fixed):
+        return partial(steady, fixed, start)
+    return nutating(fixed, start)
 
 
 def regular_precession(

@@ -4,7 +4,9 @@
 for the phases, which are reduced in extended precision first.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,8 +21,8 @@ from .heavy_top_steady import ComplexArray, Triple, steady
 from .precise import mp
 from .theta import Lattice, Waves, theta, theta_above, waves
 
-#: A modulus m below which the axis nutates by less than any double shows.
-_UNSEEN = 1e-250
+#: A modulus m, or a 1 − cos of the angle to the vertical, that no double shows.
+_UNSEEN = Fraction(1, 10**200)
 
 #: A step of u so small that no function of it differs from its first two terms.
 _MOMENT = 1e-18
@@ -29,21 +31,37 @@ _MOMENT = 1e-18
 _VANISHING = 1e-16
 
 
-def nutating(fixed: Constants, now: Sequence[complex], t: Array) -> Triple:
-    """α = w + iz, β = x + iy, Ω1 + iΩ2 (n,) at t (n,) in the body's axes; ``now`` holds them at t = 0.
+def nutating(fixed: Constants, now: Sequence[complex]) -> Callable[[Array], Triple]:
+    """A motion with gravity that is not steady: from times (n,) to α = w + iz, β = x + iy and Ω1 + iΩ2.
 
-    For a motion with gravity that is not steady.
+    These are in the body's axes; ``now`` holds them at t = 0. What does not depend on time is computed here.
     """
     found = roots(fixed)
-    if found.d12 < _UNSEEN * found.d13:
-        return steady(fixed, now, t)
+    if found.d12 < real(_UNSEEN) * found.d13:
+        return _unseen(fixed, now)
     this, spin = case(fixed, found), real(fixed.spin)
-    phase = elliptic.phase(this.modulus, this.rate, this.start, t)
-    shapes = _shapes(this, (spin / 2, -spin / 2, -spin), t, phase)
-    alpha, beta, Omega = (
-        shape * unit for shape, unit in zip(shapes, _fitting(this, fixed, now), strict=True)
-    )
-    return alpha, beta, Omega
+    units = _fitting(this, fixed, now)
+
+    def at(t: Array) -> Triple:
+        phase = elliptic.phase(this.modulus, this.rate, this.start, t)
+        shapes = _shapes(this, (spin / 2, -spin / 2, -spin), t, phase)
+        alpha, beta, Omega = (shape * unit for shape, unit in zip(shapes, units, strict=True))
+        return alpha, beta, Omega
+
+    return at
+
+
+def _unseen(fixed: Constants, now: Sequence[complex]) -> Callable[[Array], Triple]:
+    """Regular precession but for a nutation that no double shows; next to the vertical, asleep."""
+    alpha, beta, _ = now
+    if fixed.d0 < _UNSEEN:
+        return partial(
+            steady, fixed._replace(d0=Fraction(0), c=Fraction(0), across=Fraction(0)), (alpha, 0j, 0j)
+        )
+    if 2 - fixed.d0 < _UNSEEN:
+        upside_down = fixed._replace(d0=Fraction(2), c=-2 * fixed.a, across=Fraction(0))
+        return partial(steady, upside_down, (0j, beta, 0j))
+    return partial(steady, fixed, now)
 
 
 def _shapes(case: Case, turning: Sequence[Any], t: Array, phase: elliptic.Phase) -> list[ComplexArray]:

@@ -206,6 +206,31 @@ def test_a_start_next_to_the_vertical_is_as_one_on_it(start):
         assert np.abs(exact[1] - close[1]).max() < 4e-15
 
 
+def test_next_to_the_vertical_by_less_than_squares_can_hold_it_is_asleep():
+    """A tilt of 1e-211: neither its square nor the nutation can be told from nothing."""
+    t = np.array([-3.0, 0.0, 1.0, 50.0])
+    for spin in (0.0, 7.0):
+        for near, exact in (
+            ([1e-120, 1, 1e-211, 0], [0, 1, 0, 0]),
+            ([1e-211, 0, 0.6, 0.8], [0, 0, 0.6, 0.8]),
+        ):
+            if exact[1] == 0 and spin == 0:
+                continue  # upright without spin it falls, sooner or later
+            start = {"q0": near, "omega0": [0, 1e-308, spin]}
+            expected, _ = motion(**HANDY, q0=exact, omega0=[0, 0, spin], t=t)
+            q, omega = motion(**HANDY, **start, t=t)
+            assert angle_between(q, expected).max() < ATTITUDE
+            assert np.abs(omega - [0, 0, spin]).max() < 1e-100
+
+
+def test_regular_precession_off_by_a_denormal_is_regular_precession():
+    t = np.array([-3.0, 0.0, 1.0, 50.0])
+    exact = motion(**HANDY, q0=[0.5] * 4, omega0=[0, 1, 2], t=t)
+    near = motion(**HANDY, q0=[0.5] * 4, omega0=[1e-310, 1, 2], t=t)
+    assert angle_between(exact[0], near[0]).max() < ATTITUDE
+    assert np.abs(exact[1] - near[1]).max() < 4e-15
+
+
 # Limits
 
 
@@ -248,6 +273,17 @@ def test_a_late_moment_is_told_from_the_next():
 
 
 # What comes in and out
+
+
+@pytest.mark.parametrize("omega0", [[0, 1, 2], [0.3, 1, 2], [2, 0, 0]])
+def test_a_long_row_of_times_is_as_each_by_itself(omega0):
+    t = np.linspace(-20, 20, 20001)
+    q, omega = motion(**HANDY, q0=LEVEL, omega0=omega0, t=t)
+    some = [0, 8191, 8192, 12345, 16384, 20000]
+    for place in some:
+        alone_q, alone_omega = motion(**HANDY, q0=LEVEL, omega0=omega0, t=t[place])
+        assert np.abs(alone_q[0] - q[place]).max() < 1e-15
+        assert np.abs(alone_omega[0] - omega[place]).max() < 4e-15
 
 
 def test_one_time_and_no_time():

@@ -12,7 +12,7 @@ from poinsot.reference.heavy_top_equations import accelerations, constants_of_mo
 TWICE = 4e-15
 
 # A few hundredths of a second each, most of it for the mpmath numbers of a motion.
-SOME = settings(max_examples=40)
+SOME = settings(max_examples=25)
 
 
 @st.composite
@@ -137,7 +137,7 @@ def test_time_runs_backwards_as_well(top, span):
 
 
 @given(tops(), st.floats(-1, 1), st.floats(-20, 20))
-@settings(max_examples=20)
+@settings(max_examples=12)
 def test_motions_compose(top, share, span):
     t = times(top, share * span, span)
     q, omega = motion(*top, t)
@@ -164,7 +164,7 @@ def test_half_a_turn_of_the_world_or_of_the_body_turns_all(top, span):
 
 
 @given(tops(), st.floats(-3, 3), st.floats(-20, 20))
-@settings(max_examples=20)
+@settings(max_examples=12)
 def test_any_turn_about_the_vertical_or_about_e3_turns_all(top, angle, span):
     turn = np.array([0.0, 0.0, np.sin(angle / 2), np.cos(angle / 2)])
     t = times(top, span)
