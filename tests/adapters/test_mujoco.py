@@ -434,6 +434,15 @@ def test_a_wrong_model_shows_in_the_readback(top, change, setting):
     assert np.abs(np.subtract(a, b)).max() > 1e-4
 
 
+def test_damping_is_said_as_a_rate(scene_of):
+    body = Body("body", 2.0, diagonal(0.5, 0.5, 0.5), (Joint("free", "free"),))
+    engine = built(scene_of([body], [0] * 6 + [1], [0] * 6))
+    engine._model.dof_damping[:] = 0.04
+    said = engine.readback().values
+    assert said["linear_damping"] == pytest.approx(0.04 / 2.0)
+    assert said["angular_damping"] == pytest.approx(0.04 / 0.5)
+
+
 def test_mujocos_own_text_has_six_digits(random_tree):
     engine = built(random_tree(1))
     copied = mujoco.MjModel.from_xml_string(engine._spec.to_xml())
@@ -473,6 +482,9 @@ def test_the_text_says_which_mass_matrices_are_diagonal(scene_of, offset, simple
     body = Body("body", 1.0, diagonal(1, 2, 2.5), (Joint("free", "free"),), center_of_mass=(offset, 0.0, 0.0))
     engine = built(scene_of([body], [0] * 6 + [1], [0] * 6))
     assert same_model(engine).body_simple[1] == engine._model.body_simple[1] == simple
+    # Only an exactly aligned body keeps MuJoCo's shortcut.
+    same = mujoco.mjtSameFrame.mjSAMEFRAME_BODY
+    assert (engine._model.body_sameframe[1] == same) == bool(simple)
 
 
 def test_closing_lets_go_and_may_be_repeated(top):
