@@ -572,6 +572,7 @@ def test_what_is_no_body_joint_or_tree_is_refused():
     hinge, free = Joint("hinge"), Joint("free")
     for bad in (
         [Link(1.0, good, parent=0)],
+        [Link(1.0, good, parent=-2)],
         [Link(1.0, good, joints=(free, hinge))],
         [Link(1.0, good), Link(1.0, good, parent=0, joints=(free,))],
         [Link(1.0, good, joints=(free,), position=(1, 0, 0))],
