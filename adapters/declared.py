@@ -2,16 +2,15 @@
 
 import ast
 import importlib.util
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..reference.errors import PoinsotError
-from ..scenarios.scene import FEATURES
 from .engine import Scheme
 
-#: All that a declaration may refer to.
-_KNOWN = {"Scheme": Scheme, "FEATURES": FEATURES, "frozenset": frozenset}
+DECLARED = ("name", "features", "schemes")
 
 
 @dataclass(frozen=True)
@@ -31,18 +30,35 @@ def declared() -> list[Declaration]:
 
 def _declaration(path: Path) -> Declaration:
     tree = ast.parse(path.read_text(encoding="utf-8"))
+    names: dict[str, Any] = {"__package__": __package__}
     for node in tree.body:
-        if isinstance(node, ast.ClassDef):
-            values = {a.target.id: a.value for a in node.body if isinstance(a, ast.AnnAssign) if a.value
-                      and isinstance(a.target, ast.Name)}  # fmt: skip
-            if "schemes" in values:
-                installed = importlib.util.find_spec(path.stem.removesuffix("_")) is not None
-                name, features, schemes = (_value(values[key]) for key in ("name", "features", "schemes"))
-                return Declaration(name, features, schemes, installed)
-    raise PoinsotError(f"{path.name}: got no class that declares schemes, expected one engine")
+        if isinstance(node, ast.ClassDef) and set(DECLARED) <= _assigned(node).keys():
+            name, features, schemes = (_value(_assigned(node)[key], names) for key in DECLARED)
+            installed = importlib.util.find_spec(path.stem.removesuffix("_")) is not None
+            return Declaration(name, features, schemes, installed)
+        _define(node, names)
+    raise PoinsotError(f"{path.name}: got no class that declares {', '.join(DECLARED)}, expected one engine")
 
 
-def _value(expression: ast.expr) -> Any:
-    """The value of a class attribute that is written with literals, schemes and features alone."""
-    code = compile(ast.Expression(expression), "<declaration>", "eval")
-    return eval(code, {"__builtins__": {}}, _KNOWN)  # noqa: S307 (Poinsot's own source, and no builtins)
+def _assigned(node: ast.ClassDef) -> dict[str, ast.expr]:
+    return dict(_assignments(node))
+
+
+def _assignments(node: ast.ClassDef) -> Iterator[tuple[str, ast.expr]]:
+    for part in node.body:
+        if isinstance(part, ast.AnnAssign) and isinstance(part.target, ast.Name) and part.value:
+            yield part.target.id, part.value
+
+
+def _define(node: ast.stmt, names: dict[str, Any]) -> None:
+    """Carry out an import from Poinsot itself or an assignment, unless it needs the engine."""
+    ours = isinstance(node, ast.ImportFrom) and node.level > 0
+    if ours or isinstance(node, ast.Assign):
+        try:
+            exec(compile(ast.Module([node], []), "<declaration>", "exec"), names)  # noqa: S102 (own source)
+        except NameError:
+            return
+
+
+def _value(expression: ast.expr, names: dict[str, Any]) -> Any:
+    return eval(compile(ast.Expression(expression), "<declaration>", "eval"), names)  # noqa: S307 (own source)
