@@ -35,12 +35,14 @@ def refuse(scene: Scene, scheme: Scheme, maximal: bool) -> None:
         _refuse_large(scene, tree)
 
 
-def refuse_frozen(scene: Scene, name: str) -> None:
-    """Raise ``InputError`` for a joint that a force does not move."""
-    raise InputError(
-        f"scene {scene.full_name}: joint {name!r} moves an inertia below {EPSILON:.3g} kg m² or kg, "
-        "with which PyBullet never moves it; scale the scene up"
-    )
+def refuse_frozen(scene: Scene, responses: Iterable[Array]) -> None:
+    """Raise ``InputError`` for the first hinge or slide that a force in it does not move."""
+    for joint, response in zip(scene.scalar_joints, responses, strict=True):
+        if not response.any():
+            raise InputError(
+                f"scene {scene.full_name}: joint {joint.name!r} moves an inertia below {EPSILON:.3g} "
+                "(kg m² or kg), with which PyBullet never moves it; scale the scene up"
+            )
 
 
 def refuse_broken(state: State, turning: Iterable[Array], dt: float) -> None:
@@ -55,10 +57,12 @@ def refuse_broken(state: State, turning: Iterable[Array], dt: float) -> None:
         )
 
 
-def refuse_said(scene: Scene, text: str) -> None:
-    """Raise ``EngineError`` if PyBullet printed anything while it loaded: it only complains."""
-    if text.strip():
-        raise EngineError(f"PyBullet complains of {scene.full_name}: {' '.join(text.split())}")
+def refuse_said(scene: Scene, uid: int, text: str) -> None:
+    """Raise ``EngineError`` if a model was not loaded, or PyBullet printed anything: it only complains."""
+    if uid < 0 or text.strip():
+        raise EngineError(
+            f"PyBullet refuses {scene.full_name}: {' '.join(text.split()) or 'no reason given'}"
+        )
 
 
 def _refuse_small(scene: Scene, tree: list[int], maximal: bool) -> None:

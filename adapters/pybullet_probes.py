@@ -57,7 +57,7 @@ def decays(scene: Scene, change: Change) -> tuple[float, float]:
     for index, linear in enumerate(_linear(scene)):
         v = _along(scene, index, SLOW)
         left = 1 + _odd(change, rest(scene), v, SECONDS, STEPS)[index] * STEPS * SECONDS / SLOW
-        rates[linear].append((1 - abs(left) ** (1 / STEPS)) / SECONDS)
+        rates[linear].append((1 - abs(float(left)) ** (1 / STEPS)) / SECONDS)
     every = [*rates[True], *rates[False]] or [0.0]
     worst = [max(rates[linear] or every, key=abs) for linear in (True, False)]
     return worst[0], worst[1]
@@ -79,30 +79,30 @@ def stiffness(scene: Scene, number: int, change: Change, response: Array) -> flo
 
     ``response`` (nv,) is the acceleration that a unit of its force gives where it is ``displaced``.
     """
-    pulled = change(displaced(scene, number), np.zeros(len(scene.v0)), 1.0, 1)
-    return 0.0 - float(pulled @ response / (response @ response))
+    q = displaced(scene, number)
+    pulled = change(q, np.zeros(len(scene.v0)), 1.0, 1)
+    return _share(pulled / -q[_scalars(scene)[number][0]], response)
 
 
 def damper(scene: Scene, number: int, change: Change, response: Array) -> float:
     """Damping constant of the hinge or slide of this number; ``response`` as in ``stiffness``, at rest."""
     v = _along(scene, _scalars(scene)[number][1], SLOWER)
-    braked = _odd(change, rest(scene), v, AGES, 1) / SLOWER
-    return 0.0 - float(braked @ response / (response @ response))
+    return _share(_odd(change, rest(scene), v, AGES, 1) / -SLOWER, response)
 
 
 def rest(scene: Scene) -> Array:
-    """Coordinates (nq,) with every joint at zero, and not turned."""
-    q = np.zeros(len(scene.q0))
-    for _, joint, at_q, _ in scene.slices():
-        if joint.kind in ("free", "ball"):
-            q[at_q.stop - 1] = 1.0
+    """Coordinates (nq,) of the start, but with every spring slack."""
+    q = np.array(scene.q0)
+    for joint, (at_q, _) in zip(scene.scalar_joints, _scalars(scene), strict=True):
+        if joint.stiffness:
+            q[at_q] = 0.0
     return q
 
 
 def displaced(scene: Scene, number: int) -> Array:
-    """Coordinates at rest but for the hinge or slide of this number, which is at 1."""
-    q = rest(scene)
-    q[_scalars(scene)[number][0]] = 1.0
+    """Coordinates at rest but for the hinge or slide of this number, which is further from 0 by 1."""
+    q, place = rest(scene), _scalars(scene)[number][0]
+    q[place] += np.copysign(1.0, q[place])
     return q
 
 
@@ -148,6 +148,12 @@ def without(scene: Scene, *settings: str) -> Scene:
     ]
     gravity = (0.0, 0.0, 0.0) if "gravity" in settings else scene.gravity
     return replace(scene, bodies=tuple(bodies), gravity=gravity)
+
+
+def _share(change: Array, response: Array) -> float:
+    """How many times the response is in the change; not a number if there is no response."""
+    size = float(response @ response)
+    return float(change @ response) / size + 0.0 if size else np.nan
 
 
 def _odd(change: Change, q: Array, v: Array, dt: float, steps: int) -> Array:

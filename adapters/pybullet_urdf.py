@@ -3,7 +3,6 @@
 import math
 import re
 from collections.abc import Iterator
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import numpy.typing as npt
@@ -42,7 +41,7 @@ def urdf(scene: Scene, tree: list[int]) -> str:
     Joints that share a body get links without mass between them. No line is long: PyBullet cuts
     lines at 8191 characters without a word.
     """
-    lines = ['<?xml version="1.0"?>', f"<robot name={quoteattr(scene.full_name)}>"]
+    lines = ['<?xml version="1.0"?>', f'<robot name="{_plain(scene.full_name)}">']
     if not is_free(scene.bodies[tree[0]]):
         lines += _link("ground", 0.0)
     names = {scene.bodies[index].name: _link_name(scene, index) for index in tree}
@@ -126,7 +125,11 @@ def _origin(position: npt.ArrayLike, axes: Array, quaternion: tuple[float, ...] 
 
 
 def _link_name(scene: Scene, index: int) -> str:
-    return f"{index} {re.sub(r'[^A-Za-z0-9]+', '_', scene.bodies[index].name)[:60]}"
+    return f"{index} {_plain(scene.bodies[index].name)}"
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^A-Za-z0-9]+", "_", name)[:60]
 
 
 def _numbers(values: npt.ArrayLike) -> str:

@@ -13,6 +13,7 @@ from poinsot.scenarios.trajectory import Provenance, Trajectory
 #: Tests that speak to an engine itself, where it is not installed.
 collect_ignore = [
     *(["test_mujoco.py", "test_twins.py"] if find_spec("mujoco") is None else []),
+    *(["test_pybullet.py", "test_pybullet_twins.py"] if find_spec("pybullet") is None else []),
     *(
         ["test_pinocchio.py", "test_pinocchio_schemes.py", "test_twins.py"]
         if find_spec("pinocchio") is None
