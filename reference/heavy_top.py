@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .blocks import blocks
-from .checked import Array, number, times
+from .checked import Array, finite, number, times
 from .errors import InputError
 from .heavy_top_attitude import nutating
 from .heavy_top_constants import (
@@ -71,8 +71,9 @@ def motion(
     """
     fixed = constants(mass, length, moments, gravity, q0, omega0)
     when = times("t", t)
-    x, y, z, w = (float(v) for v in np.asarray(q0, dtype=np.float64) / np.linalg.norm(q0))
-    w1, w2, w3 = (float(v) for v in np.asarray(omega0, dtype=np.float64))
+    # Not divided by its length here: only the arguments of α and β are used, and their ratio.
+    x, y, z, w = finite("q0", q0).tolist()
+    w1, w2, w3 = finite("omega0", omega0).tolist()
     start = complex(w, z), complex(x, y), complex(w1, w2)
     follow = _follower(fixed, start, float(np.abs(when).max(initial=0.0)))
     q, omega = np.empty((when.size, 4)), np.full((when.size, 3), w3)
