@@ -89,8 +89,7 @@ def down_an_incline(
     needed = pull * kk / (1 + kk)  # friction, up the slope, that rolling needs
     steady = needed if abs(needed) <= grip else np.copysign(grip, pull)
     first = steady if u0 == 0 else np.copysign(grip, u0)
-    change = pull - first * (1 + 1 / kk)
-    stops = -u0 / change if u0 * change < 0 else (0.0 if u0 == 0 else np.inf)
+    stops = _end_of_slip(u0, pull - first * (1 + 1 / kk))
     early, late = np.minimum(t, stops), np.maximum(t - stops, 0.0)
     friction_now = np.where(t < stops, first, steady)
     # Two stretches of constant acceleration, of the centre and of the turning, one after the other.
@@ -99,6 +98,14 @@ def down_an_incline(
     rolls = (t >= stops) & (abs(needed) <= grip)
     slip = np.where(rolls, 0.0, v - a * omega)
     return Rolling(x, v, angle, omega, slip, friction_now)
+
+
+def _end_of_slip(slip: float, change: float) -> float:
+    """When a slip [m/s] that changes at ``change`` [m/s²] reaches 0; infinite if it never does."""
+    if slip == 0:
+        return 0.0
+    with np.errstate(over="ignore"):  # with next to no friction, later than any number
+        return float(-slip / np.float64(change)) if np.sign(slip) == -np.sign(change) else np.inf
 
 
 def _stretches(rate: float, first: float, second: float, early: Array, late: Array) -> tuple[Array, Array]:

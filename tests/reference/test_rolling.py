@@ -99,6 +99,13 @@ def test_energy_is_lost_to_slipping_alone(theta, mu, kk, v0, rim, t):
     assert energy[0] - energy[-1] == pytest.approx(lost, abs=np.abs(power).max() * t / 1000 + 1e-9)
 
 
+@pytest.mark.parametrize(("mu", "v0"), [(0.0, 1.0), (1e-311, 1.0), (1e-200, 1e-200)])
+def test_next_to_no_friction(mu, v0):
+    got = down_an_incline(0.3, 0.4, G, 0.0, mu, [0.0, 3.0], v0)
+    assert got.v[1] == pytest.approx(v0 if mu < v0 else 5 / 7 * v0, rel=1e-15, abs=0)
+    assert (got.slip[1] == 0) == (mu == v0)
+
+
 def test_backspin_brings_a_ball_back():
     # Kicked on a level floor with aω = −5 v: it stops, comes back and rolls at (v0 + kk aω0)/(1 + kk).
     got = down_an_incline(0.5, 0.4, G, 0.0, 0.1, [0.0, 50.0], 2.0, -20.0)
