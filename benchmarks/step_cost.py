@@ -40,7 +40,18 @@ def pinocchio_loop(engine, n):
         q = pin.integrate(model, q, v * DT)
 
 
-LOOPS = {"mujoco": mujoco_loop, "pinocchio": pinocchio_loop}
+def pybullet_loop(engine, n):
+    """One ``stepSimulation`` after another, with the forces of springs handed over before each."""
+    p, client, springs = importlib.import_module("pybullet"), engine._world.client, engine._world._springs
+    for _ in range(n):
+        for uid, links, pulls in springs:
+            states = p.getJointStates(uid, links, physicsClientId=client)
+            forces = [pull * state[0] for pull, state in zip(pulls, states, strict=True)]
+            p.setJointMotorControlArray(uid, links, p.TORQUE_CONTROL, forces=forces, physicsClientId=client)
+        p.stepSimulation(physicsClientId=client)
+
+
+LOOPS = {"mujoco": mujoco_loop, "pybullet": pybullet_loop, "pinocchio": pinocchio_loop}
 
 
 def least(*loops):
