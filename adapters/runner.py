@@ -4,7 +4,7 @@ import multiprocessing
 import os
 import re
 import signal
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, as_completed
 from concurrent.futures import TimeoutError as TimeLimitError
 from dataclasses import dataclass
@@ -85,26 +85,33 @@ def _isolated(
     arguments: tuple[Any, ...],
     workers: int,
     time_limit: float,
-) -> Iterable[tuple[Request, Any]]:
+) -> Iterator[tuple[Request, Any]]:
     """Results of ``work(request, *arguments)``, or a sentence for each that failed, as they come."""
-    context = multiprocessing.get_context("spawn")
-    with ProcessPool(max_workers=workers, context=context) as pool:
-        futures = [
-            (pool.schedule(work, (request, *arguments), timeout=time_limit), request) for request in requests
-        ]
-        origin: dict[Future[Any], Request] = dict(futures)
+    pool = ProcessPool(max_workers=workers, context=multiprocessing.get_context("spawn"))
+    origin: dict[Future[Any], Request] = {
+        pool.schedule(work, (request, *arguments), timeout=time_limit): request for request in requests
+    }
+    try:
         for future in as_completed(origin):
-            request = origin[future]
-            try:
-                yield request, future.result()
-            except TimeLimitError:
-                yield request, f"took longer than the time limit of {time_limit:g} s and was stopped"
-            except ProcessExpired as death:
-                yield request, f"its process died ({_cause(death.exitcode)})"
-            except PoinsotError as error:
-                yield request, str(error)
-            except Exception as error:  # an engine may raise anything; it must not end the run
-                yield request, f"{type(error).__name__}: {error}"
+            yield origin[future], _result(future, time_limit)
+    finally:
+        # Whoever stops asking, by an interrupt for one, wants nothing of what is still under way.
+        pool.stop()
+        pool.join()
+
+
+def _result(future: Future[Any], time_limit: float) -> Any:
+    """What a cell came to, or a sentence on how it failed."""
+    try:
+        return future.result()
+    except TimeLimitError:
+        return f"took longer than the time limit of {time_limit:g} s and was stopped"
+    except ProcessExpired as death:
+        return f"its process died ({_cause(death.exitcode)})"
+    except PoinsotError as error:
+        return str(error)
+    except Exception as error:  # an engine may raise anything; it must not end the run
+        return f"{type(error).__name__}: {error}"
 
 
 def _logged(request: Request, folder: Path) -> Path:

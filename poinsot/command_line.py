@@ -15,6 +15,7 @@ app = App(
     name="poinsot",
     help="Cross-validate rigid-body physics engines against exact solutions and against each other.",
     version=__version__,
+    suppress_keyboard_interrupt=False,
 )
 
 Names = Annotated[list[str] | None, Parameter(negative="", consume_multiple=False)]

@@ -10,11 +10,11 @@ from .adapters.engine import Engine
 from .adapters.environment import environment
 from .adapters.runner import Request
 
-#: For which Pythons an engine's authors publish wheels; elsewhere pip has nothing to install.
+#: Pythons from 3.11 on for which wheels of an engine were seen; elsewhere pip may have nothing to install.
 WHEELS = {
-    "mujoco": "CPython 3.10 and later on Linux, macOS and Windows",
-    "pinocchio": "CPython 3.9 and later on Linux and macOS (the distribution is called pin)",
-    "pybullet": "CPython 3.10 and 3.11 on Linux",
+    "mujoco": "Python 3.10 and later",
+    "pinocchio": "CPython 3.11 to 3.14 on Linux (the distribution is called pin)",
+    "pybullet": "CPython 3.11 on Linux",
 }
 SELF_TEST = "free_symmetric_top[oblate]"
 

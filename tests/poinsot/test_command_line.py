@@ -1,8 +1,11 @@
 """Bad input: one clear line, the right exit code, no traceback, and nothing written."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -143,3 +146,30 @@ def test_list_imports_no_engine():
         "sys.exit(len({'mujoco', 'pybullet', 'pinocchio'} & sys.modules.keys()))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, check=False).returncode == 0
+
+
+def test_an_interrupt_ends_with_130_and_leaves_no_process(tmp_path):
+    command = [sys.executable, "-m", "poinsot", "run", "heavy_top[fast]", "--out", str(tmp_path / "out")]
+    started = subprocess.Popen(
+        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    while not list(tmp_path.glob("out/logs/*.mcap")) and started.poll() is None:
+        time.sleep(0.1)
+    os.killpg(started.pid, signal.SIGINT)
+    _, err = started.communicate(timeout=60)
+    assert started.returncode == 130
+    assert err.endswith("poinsot: interrupted\n")
+    assert "Traceback" not in err
+    assert gone(started.pid)
+
+
+def gone(group, patience=15.0):
+    """Whether a process group ends in time: the interpreter's own tracker outlives its parent a little."""
+    end = time.monotonic() + patience
+    while time.monotonic() < end:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.1)
+    return False
