@@ -27,13 +27,19 @@ class Cell:
 
     @classmethod
     def of(cls, trajectory: Trajectory, scenes: dict[str, Scene]) -> "Cell":
-        """The cell of a trajectory; raises ``InputError`` if it does not say what it is."""
+        """The cell of a trajectory.
+
+        Raises ``InputError`` if it does not say what it is, or is not the whole of that scene: what
+        was not logged would pass unseen.
+        """
         provenance = trajectory.provenance
         if provenance is None:
             raise InputError("trajectory: got one without provenance, expected one from simulate() or a log")
         if provenance.scene not in scenes:
             raise InputError(f"trajectory: got scene {provenance.scene!r}, which this Poinsot does not have")
-        return cls(scenes[provenance.scene], trajectory, provenance)
+        scene = scenes[provenance.scene]
+        _whole(trajectory, scene)
+        return cls(scene, trajectory, provenance)
 
     @property
     def truth(self) -> Trajectory:
@@ -102,6 +108,23 @@ class Cell:
         status = Status.PASS if measured <= allowed else Status.FAIL
         return self.verdict(
             check, name or observable.name, status, message, measured, allowed, observable.unit, at
+        )
+
+
+def _whole(trajectory: Trajectory, scene: Scene) -> None:
+    got = (trajectory.position.shape[1], trajectory.joint_position.shape[1])
+    if got != (len(scene.bodies), len(scene.scalar_joints)):
+        raise InputError(
+            f"trajectory of {scene.full_name}: got {got[0]} bodies and {got[1]} hinges and slides, "
+            f"expected {len(scene.bodies)} and {len(scene.scalar_joints)}"
+        )
+    t, expected = trajectory.t, scene.sample_times()
+    # Times are whole steps, whose product with dt rounds by far less than this part of a sample.
+    if t.shape != expected.shape or not np.all(np.abs(t - expected) <= 1e-6 * expected[1]):
+        last = f" up to {t[-1]:g} s" if len(t) else ""
+        raise InputError(
+            f"trajectory of {scene.full_name}: got {len(t)} samples{last}, expected {len(expected)}, "
+            f"evenly up to {expected[-1]:g} s"
         )
 
 
