@@ -67,13 +67,14 @@ def expected(scene: Scene, dt: float) -> Mapping[str, Any]:
 
 def _error(name: str, got: Any, asked: Any) -> float:
     """Difference relative to what was asked for; infinite if there is no comparable answer."""
-    if got is None:
+    try:
+        have, want = np.asarray(got, dtype=np.float64), np.asarray(asked, dtype=np.float64)
+    except (TypeError, ValueError):
         return float("inf")
-    if name == "velocity_limit":
-        return 0.0 if float(got) >= UNLIMITED else float("inf")
-    have, want = np.asarray(got, dtype=np.float64), np.asarray(asked, dtype=np.float64)
     if have.shape != want.shape:
         return float("inf")
+    if name == "velocity_limit":
+        return 0.0 if have >= UNLIMITED else float("inf")
     difference = float(np.max(np.abs(have - want)))
     return difference / (float(np.max(np.abs(want))) or 1.0)
 
