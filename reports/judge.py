@@ -31,11 +31,11 @@ def judge(
     alone = [v for cell in sound for v in (*truth.check(cell), *setup.check(cell), *setup.determinism(cell))]
     ladders = _grouped(sound, lambda p: (p.scene, p.engine, p.engine_version, p.scheme))
     twins = _grouped([c for c in sound if c.provenance.twin], lambda p: (p.scene, p.dt, p.twin))
+    on_record = tuple(deviations.recorded() if known is None else known)
     together = [v for group in ladders for v in order.check(group)] + [
-        v for group in twins for v in twin.check(group)
+        v for group in twins for v in twin.check(group, on_record)
     ]
-    found = broken + alone + together
-    return deviations.applied(found, deviations.recorded() if known is None else known)
+    return deviations.applied([*broken, *alone, *together], on_record)
 
 
 def _finite(cell: Cell) -> list[Verdict]:

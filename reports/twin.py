@@ -1,12 +1,13 @@
 """Twins: engines that run the same scheme at the same step must agree to rounding."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from ..reference.checked import Array
 from ..scenarios.observables import Observable
 from .cell import Cell
+from .deviations import Deviation
 from .growth import growth
 from .verdict import Status, Verdict
 
@@ -16,11 +17,12 @@ BASE, PER_GROWTH = 1e-12, 1e-13
 CHAOTIC = 1e6
 
 
-def check(twins: Sequence[Cell]) -> list[Verdict]:
+def check(twins: Sequence[Cell], known: Iterable[Deviation] = ()) -> list[Verdict]:
     """Verdicts on cells of one scene, one step and one twin name.
 
     A cell is held against the nearer half of the other engines' cells, so that where three run
-    the scheme and one is wrong, only that one fails.
+    the scheme and one is wrong, only that one fails. Where a cell has no other twin than one that
+    is ``known`` to deviate so far, the failure is known too: it is not the cell's own.
     """
     if len({cell.provenance.engine for cell in twins}) < 2:
         return []
@@ -28,21 +30,25 @@ def check(twins: Sequence[Cell]) -> list[Verdict]:
     if A > CHAOTIC:
         return [cell.verdict("twin", "state", Status.PASS, _too_chaotic(A)) for cell in twins]
     allowed = BASE + PER_GROWTH * A
-    return [_judged(cell, twins, allowed) for cell in twins]
+    deviations = tuple(known)
+    return [_judged(cell, twins, allowed, deviations) for cell in twins]
 
 
-def _judged(cell: Cell, twins: Sequence[Cell], allowed: float) -> Verdict:
+def _judged(cell: Cell, twins: Sequence[Cell], allowed: float, known: Iterable[Deviation]) -> Verdict:
     others = [twin for twin in twins if twin.provenance.engine != cell.provenance.engine]
     ranked = sorted(((_apart(cell, twin), twin) for twin in others), key=lambda pair: pair[0][0])
     (measured, observable, at), other = ranked[(len(ranked) - 1) // 2]
-    status = Status.PASS if measured <= allowed else Status.FAIL
     name = f"{other.provenance.engine} {other.provenance.scheme}"
-    return cell.verdict(
-        "twin", "state", status,
+    message = (
         f"farthest from its twin {name} in {observable}, relative to its size; "
-        f"1e-12 + 1e-13·A is allowed, A = {growth(cell.scene):.3g} being the growth of a kick",
-        measured, allowed, "1", at,
-    )  # fmt: skip
+        f"1e-12 + 1e-13·A is allowed, A = {growth(cell.scene):.3g} being the growth of a kick"
+    )
+    status = Status.PASS if measured <= allowed else Status.FAIL
+    others_own = other.verdict("twin", "state", status, message, measured)
+    reasons = [d.reason for d in known if d.applies(others_own) and measured <= d.bound]
+    if status is Status.FAIL and reasons:
+        status, message = Status.KNOWN, f"{message}; known of {name}: {reasons[0]}"
+    return cell.verdict("twin", "state", status, message, measured, allowed, "1", at)
 
 
 def _apart(cell: Cell, other: Cell) -> tuple[float, str, float]:
