@@ -7,6 +7,7 @@ import numpy as np
 
 from ..reference.checked import Array
 from ..scenarios.observables import Observable
+from . import truth
 from .cell import Cell
 from .verdict import Status, Verdict
 
@@ -30,7 +31,8 @@ class Fit(NamedTuple):
 
 def check(ladder: Sequence[Cell]) -> list[Verdict]:
     """Order and limit of every state observable, from cells that differ in their step alone."""
-    cells = sorted(ladder, key=lambda cell: -cell.provenance.dt)
+    by_step = {cell.provenance.dt: cell for cell in ladder}
+    cells = [by_step[dt] for dt in sorted(by_step, reverse=True)]
     if len(cells) < STEPS:
         return []
     states = [o for o in cells[0].scene.observables if o.kind == "state"]
@@ -53,8 +55,7 @@ def _order(cells: Sequence[Cell], observable: Observable) -> Verdict:
     floors = np.array([cell.round_off(observable) for cell in cells])
     finest, declared = cells[-1], cells[0].provenance.order
     if np.all(errors <= floors):
-        message = f"exact to round-off at all {len(cells)} steps: there is no order to measure"
-        return finest.verdict("order", observable.name, Status.PASS, message)
+        return _exact(cells, observable)
     clear = errors > ABOVE * floors
     if clear.sum() < FEWEST:
         message = (
@@ -69,6 +70,20 @@ def _order(cells: Sequence[Cell], observable: Observable) -> Verdict:
     )
     status = Status.PASS if off <= TOLERANCE else Status.FAIL
     return finest.verdict("order", observable.name, status, message, off, TOLERANCE, "1")
+
+
+def _exact(cells: Sequence[Cell], observable: Observable) -> Verdict:
+    """No error at any step: right only where the scheme has none, and else not from an integration."""
+    finest, steps = cells[-1], f"exact to round-off at all {len(cells)} steps"
+    own, coarse = max((truth.own_error(cell, observable) or 0.0, cell.provenance.dt) for cell in cells)
+    if own <= ABOVE * finest.round_off(observable):
+        message = f"{steps}: there is no order to measure"
+        return finest.verdict("order", observable.name, Status.PASS, message)
+    message = (
+        f"{steps}, although the scheme's own error is {own:.2g} {observable.unit} at dt {coarse:g} s: "
+        f"too good to be an integration of order {finest.provenance.order}"
+    )
+    return finest.verdict("order", observable.name, Status.FAIL, message)
 
 
 def _limit(cells: Sequence[Cell], observable: Observable) -> Verdict:

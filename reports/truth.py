@@ -16,7 +16,19 @@ def check(cell: Cell) -> list[Verdict]:
 
 def without_constant(cell: Cell) -> list[str]:
     """Observables whose error at a finite step nothing is recorded of, for this scheme."""
-    return [o.name for o in cell.scene.observables if _allowed(cell, o) is None]
+    return [o.name for o in cell.scene.observables if own_error(cell, o) is None]
+
+
+def own_error(cell: Cell, observable: Observable) -> float | None:
+    """How far the scheme itself is from the truth at this step; ``None`` where nothing is known of it."""
+    if cell.predicted is not None:
+        return float(observable.distance(cell.scene, cell.predicted, cell.truth).max())
+    p = cell.provenance
+    constant = cell.scene.error_constant(p.twin, observable)
+    if constant is None or p.dt > max(cell.scene.ladder(p.order, p.twin)) * (1 + 1e-9):
+        # A constant holds on the ladder it was measured on and below it, not at coarser steps.
+        return None
+    return constant * p.dt**p.order
 
 
 def _judged(cell: Cell, observable: Observable) -> list[Verdict]:
@@ -40,16 +52,20 @@ def _judged(cell: Cell, observable: Observable) -> list[Verdict]:
 
 def _allowed(cell: Cell, observable: Observable) -> tuple[float, str] | None:
     """Largest distance allowed, and why."""
-    floor = cell.round_off(observable)
+    own, floor = own_error(cell, observable), cell.round_off(observable)
+    if own is None:
+        return None
     if cell.predicted is not None:
-        own = float(observable.distance(cell.scene, cell.predicted, cell.truth).max())
-        return own * (1 + 1e-6) + floor, "error of the scheme, predicted in closed form, and round-off"
+        reason = "the scheme's own error, predicted in closed form, and round-off are allowed"
+        return own * (1 + 1e-6) + floor, f"{_WORDS[observable.kind]}; {reason}"
     p = cell.provenance
     constant = cell.scene.error_constant(p.twin, observable)
-    if constant is None or p.dt > max(cell.scene.ladder(p.order, p.twin)) * (1 + 1e-9):
-        # A constant holds on the ladder it was measured on and below it, not at coarser steps.
-        return None
-    return (
-        MARGIN * constant * p.dt**p.order + floor,
-        f"{MARGIN} × {constant:.3g}·dt^{p.order}, as recorded, and round-off",
-    )
+    reason = f"{MARGIN} × {constant:.3g}·dt^{p.order}, the scheme's own error as recorded, and round-off"
+    return MARGIN * own + floor, f"{_WORDS[observable.kind]}; {reason} are allowed"
+
+
+_WORDS = {
+    "state": "distance from the exact motion",
+    "rate": "difference from the exact rate",
+    "invariant": "change from the exact value at the start",
+}
