@@ -3,7 +3,7 @@
 The world's z axis points up; the body's axis e3 runs from the fixed point to the centre of mass; I1 is the
 moment about any axis through the *fixed point* across e3, I3 the moment about e3. Three things stay as they
 are: p_γ = I3ω3, p_α = the vertical angular momentum, and E′ (Goldstein, *Classical Mechanics*, § 5.7; Landau
-& Lifshitz, *Mechanics*, § 35, problem 1; Fetter & Walecka, § 29).
+& Lifshitz, *Mechanics*, § 35, problem 1; Fetter & Walecka, ch. 5).
 """
 
 from collections.abc import Callable, Sequence

@@ -116,13 +116,15 @@ def _fitting(case: Case, fixed: Constants, now: Sequence[complex]) -> list[compl
     )
     zero, origin = np.zeros(1), elliptic.phase(case.modulus, case.rate, case.start, np.zeros(1))
     moved = origin._replace(remainder=two_sum(origin.remainder[0] + _MOMENT, origin.remainder[1]))
-    here, soon = (_shapes(case, (0, 0, 0), zero, phase) for phase in (origin, moved))
+    # Their sizes, which are above 0, may be too small for a double to keep its digits.
+    plain = case._replace(factors=tuple(factor._replace(size=(1.0, 1.0)) for factor in case.factors))
+    here, soon = (_shapes(plain, (0, 0, 0), zero, phase) for phase in (origin, moved))
     units = []
     for value, rate, at_start, later in zip((alpha, beta, Omega), rates, here, soon, strict=True):
         step = rate / case.rate
         vanishing = abs(value) < _VANISHING * abs(step)
         wanted, found = (value + _MOMENT * step, later) if vanishing else (value, at_start)
-        units.append(_unit(wanted) / _unit(found[0]))
+        units.append(_unit(wanted) / _unit(mp.mpc(found[0])))
     return units
 
 

@@ -45,7 +45,7 @@ class Case(NamedTuple):
     modulus: elliptic.Modulus
     start: Any
     rate: Any
-    factors: tuple[Factor, Factor, Factor]
+    factors: tuple[Factor, ...]
 
 
 def case(motion: Constants, found: Roots) -> Case:

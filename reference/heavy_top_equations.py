@@ -1,7 +1,7 @@
 """Equations of motion of a heavy symmetric top, and what they keep: p_α, p_γ and E′.
 
 β is the tilt of e3 from the vertical, α goes round the vertical, γ round e3. Source: Fetter & Walecka,
-§ 29 (these symbols); Goldstein, *Classical Mechanics*, § 5.5 (Euler's equations), § 5.7; Landau & Lifshitz,
+ch. 5 (these symbols); Goldstein, *Classical Mechanics*, § 5.5 (Euler's equations), § 5.7; Landau & Lifshitz,
 *Mechanics*, § 35, problem 1.
 """
 
@@ -48,7 +48,7 @@ def constants_of_motion(
     """p_α, p_γ [kg m²/s] and E′ [J] (...) of states ``q`` (..., 4), ``omega`` (..., 3) in body axes.
 
     p_γ = I3ω3 is the angular momentum about e3, p_α that about the vertical, and E′ = E − p_γ²/(2I3) =
-    ½I1(ω1² + ω2²) + Mgl cosβ. Fetter & Walecka § 29. Arguments otherwise as in `heavy_top.motion`, and
+    ½I1(ω1² + ω2²) + Mgl cosβ. Fetter & Walecka ch. 5. Arguments otherwise as in `heavy_top.motion`, and
     InputError as there.
     """
     I1, I3 = moments_of_a_top(moments)
@@ -72,7 +72,7 @@ def effective_potential(
     """V_eff [J] (...) at the tilts ``beta`` (...) [rad]: E′ = ½I1β̇² + V_eff(β).
 
     V_eff = (p_α − p_γ cosβ)²/(2I1 sin²β) + Mgl cosβ, ``p_alpha`` and ``p_gamma`` in kg m²/s. Fetter &
-    Walecka § 29; Goldstein § 5.7. Raises InputError for a β at which it is infinite.
+    Walecka ch. 5; Goldstein § 5.7. Raises InputError for a β at which it is infinite.
     """
     moments_of_a_top([I1, I1])
     moment = float(weight_moment(mass, length, gravity))

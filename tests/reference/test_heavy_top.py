@@ -121,19 +121,17 @@ def test_asleep_or_hanging_it_only_spins(q0, sense, spin):
         assert angle_between(attitude, quaternions.product(np.array(q0), turn)) < ATTITUDE
 
 
-def test_a_level_axis_precesses_steadily_where_gravity_and_gyroscope_agree():
-    """θ = 90°: φ̇ = Mgl/(I3ω3), exactly 1 rad/s here, and ω = φ̇ẑ + ψ̇e3."""
-    level = [0.5, 0.5, 0.5, 0.5]
+@pytest.mark.parametrize(("rate", "omega3"), [(1, 2), (2, 1), (0.25, 8), (-1, -2)])
+def test_a_level_axis_precesses_steadily_where_gravity_and_gyroscope_agree(rate, omega3):
+    """θ = 90°: φ̇ = Mgl/(I3ω3), exactly so here, and ω = φ̇ẑ + ψ̇e3, ψ̇ = ω3."""
     t = np.array([-20.0, 0.0, 0.3, 5.0])
-    q, omega = motion(**HANDY, q0=level, omega0=[0, 1, 2], t=t)
+    q, omega = motion(**HANDY, q0=[0.5, 0.5, 0.5, 0.5], omega0=[0, rate, omega3], t=t)
     e3 = axis(q)
-    assert np.allclose(e3, np.stack([np.cos(t), np.sin(t), 0 * t], axis=-1), atol=4e-16)
-    world = quaternions.rotated(q, omega)
-    assert np.allclose(world, 2 * e3 + [0, 0, 1], atol=1e-15)
-    # ψ̇ = ω3 − φ̇ cosθ = 2: e1 has turned by 2t from the horizontal, or from the vertical.
+    assert np.allclose(e3, np.stack([np.cos(rate * t), np.sin(rate * t), 0 * t], axis=-1), atol=6e-16)
+    assert np.allclose(quaternions.rotated(q, omega), omega3 * e3 + [0, 0, rate], atol=4e-15)
+    # e2 was upright at first; e1 takes its place as the body turns about the level e3.
     e1 = quaternions.rotated(q, np.array([1.0, 0.0, 0.0]))
-    first = quaternions.rotated(np.array(level), np.array([1.0, 0.0, 0.0]))[2]
-    assert np.allclose(e1[:, 2], np.cos(2 * t) * first + np.sin(2 * t) * (omega[1, 1]), atol=1e-15)
+    assert np.allclose(e1[:, 2], np.sin(omega3 * t), atol=2e-15)
 
 
 @pytest.mark.parametrize("which", [0, 1])
@@ -194,6 +192,22 @@ def test_an_unstable_upright_top_takes_the_time_that_its_kick_asks_for():
     assert axis(near)[:, 2].min() < 0.5
     # `later` is a double of 2.3e2, rounded by 3e-14; e3 moves at some 2 rad/s.
     assert np.allclose(axis(near)[:, 2], axis(far)[:, 2], atol=1e-13)
+    # Meanwhile it went round at I3ω3/(2I1).
+    (x, y, _), (x_far, y_far, _) = axis(near)[0], axis(far)[0]
+    turn = np.angle((x_far + 1j * y_far) / (x + 1j * y) * np.exp(-0.5j * later))
+    assert abs(turn) < 1e-13
+
+
+def test_a_kick_too_weak_to_square_still_has_its_direction():
+    t = np.array([780.0, 783.0])
+    q, omega = motion(**HANDY, q0=UPRIGHT, omega0=[1e-293, 0, 2.0], t=t)
+    other, rates = motion(**HANDY, q0=UPRIGHT, omega0=[0, 1e-293, 2.0], t=t)
+    quarter = np.array([0, 0, math.sqrt(0.5), math.sqrt(0.5)])
+    # A quarter of a turn of the kick turns all by a quarter, and the body back.
+    assert axis(q)[:, 2].min() < 0.5
+    turned = quaternions.product(quaternions.product(quarter, q), quaternions.conjugate(quarter))
+    assert angle_between(turned, other).max() < 2 * ATTITUDE
+    assert np.abs(rates - quaternions.rotated(quarter, omega)).max() < 4e-15
 
 
 @pytest.mark.parametrize("start", [1e-30, 1e-90, 1e-300])
@@ -366,13 +380,13 @@ def test_regular_precession_by_hand():
 
 
 def test_too_little_spin_for_regular_precession():
-    theta = 0.7
-    least = 2 * math.sqrt(math.cos(theta)) / 0.5
-    slow, fast = regular_precession(**HANDY, theta=theta, omega3=least)
+    theta, top = 0.7, {"mass": 2.0, "length": 0.5, "moments": (0.9, 0.4), "gravity": 3.0}
+    least = 2 * math.sqrt(3.0 * 0.9 * math.cos(theta)) / 0.4
+    slow, fast = regular_precession(**top, theta=theta, omega3=least)
     # At the threshold the two meet, as the root of what rounding leaves.
     assert slow == pytest.approx(fast, rel=1e-7)
-    assert slow == pytest.approx(math.sqrt(1 / math.cos(theta)), rel=1e-7)
-    with pytest.raises(InputError, match=r"omega3: got 3, too slow .* at least 3\.49"):
-        regular_precession(**HANDY, theta=theta, omega3=3)
+    assert slow == pytest.approx(math.sqrt(3.0 / (0.9 * math.cos(theta))), rel=1e-7)
+    with pytest.raises(InputError, match=r"omega3: got 3, too slow .* theta = 0.7: at least 7\.185"):
+        regular_precession(**top, theta=theta, omega3=3)
     with pytest.raises(InputError, match="too slow"):
-        regular_precession(**HANDY, theta=theta, omega3=least * (1 - 1e-14))
+        regular_precession(**top, theta=theta, omega3=least * (1 - 1e-14))
