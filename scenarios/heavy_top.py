@@ -1,5 +1,7 @@
 """A symmetric top on a fixed point under gravity: it precesses and nutates."""
 
+from functools import cache
+
 import numpy as np
 
 from ..reference import heavy_top, heavy_top_rates
@@ -37,10 +39,12 @@ def _horizontal(scene: Scene, motion: Trajectory) -> Array:
     return np.asarray(x + 1j * y)
 
 
+@cache
 def _mean_precession(scene: Scene) -> float:
     return heavy_top_rates.mean_precession(*_arguments(scene))
 
 
+@cache
 def _nutation_frequency(scene: Scene) -> float:
     return 2 * np.pi / heavy_top_rates.nutation_period(*_arguments(scene))
 
