@@ -1,5 +1,7 @@
 """Three masses in line, joined by two springs: the stretching modes of a CO2 molecule."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..reference import co2_chain, normal_modes, schemes
@@ -66,6 +68,21 @@ def _frequency(mode: int, name: str) -> Observable:
     return observables.rate(f"frequency of the {name} mode", signal, lambda scene: float(FREQUENCIES[mode]))
 
 
+def _apart(scene: Scene, motion: Trajectory) -> Array:
+    """What the springs' lengths and the joints' coordinates differ by, which nothing may part."""
+    at_rest = np.array([body.position[0] for body in scene.bodies])
+    springs = np.diff(motion.position[:, :, 0], axis=1, prepend=0.0) - at_rest
+    return np.asarray(springs - motion.joint_position)
+
+
+def _apart_in_speed(scene: Scene, motion: Trajectory) -> Array:
+    return np.asarray(np.diff(motion.velocity[:, :, 0], axis=1, prepend=0.0) - motion.joint_velocity)
+
+
+def _largest(name: str) -> Callable[[Scene, Trajectory], float]:
+    return lambda scene, motion: float(np.abs(getattr(motion, name)).max())
+
+
 RATES = {1: _frequency(1, "symmetric"), 2: _frequency(2, "antisymmetric")}
 
 
@@ -111,6 +128,9 @@ def _chain(variant: str, amplitudes: Vector) -> Scene:
             *excited,
             observables.energy(),
             observables.momentum(),
+            observables.attitude(),
+            observables.invariant("joint residual", "m", _apart, _largest("position")),
+            observables.invariant("joint speed residual", "m/s", _apart_in_speed, _largest("velocity")),
         ),
         pictures=(
             pictures.against_time(

@@ -97,12 +97,14 @@ def rate(
     return Observable(name, "rad/s", "rate", difference, lambda scene, b: abs(exact(scene)))
 
 
-def _invariant(
+def invariant(
     name: str,
     unit: str,
     compute: Callable[[Scene, Trajectory], Array],
     scale: Callable[[Scene, Trajectory], float],
 ) -> Observable:
+    """What ``compute`` gives, (n, …), which must stay as it is at the start of the exact motion."""
+
     def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
         n = len(a.t)
         return np.asarray(compute(scene, a).reshape(n, -1) - compute(scene, b).reshape(n, -1)[0])
@@ -112,21 +114,21 @@ def _invariant(
 
 def energy() -> Observable:
     """Kinetic and potential energy, computed from the states."""
-    return _invariant(
+    return invariant(
         "energy", "J", mechanics.energy, lambda scene, b: float(np.max(mechanics.kinetic_energy(scene, b)))
     )
 
 
 def angular_momentum() -> Observable:
     """Angular momentum about the world's origin, all three components, world axes."""
-    return _invariant(
+    return invariant(
         "angular momentum", "kg m²/s", mechanics.angular_momentum_world, mechanics.angular_momentum_scale
     )
 
 
 def vertical_angular_momentum() -> Observable:
     """The component of the angular momentum along z: p_α of a top about its fixed point."""
-    return _invariant(
+    return invariant(
         "p_alpha",
         "kg m²/s",
         lambda scene, a: mechanics.angular_momentum_world(scene, a)[:, 2],
@@ -136,7 +138,7 @@ def vertical_angular_momentum() -> Observable:
 
 def axial_angular_momentum() -> Observable:
     """I3 ω3 of the first body: p_γ of a symmetric top."""
-    return _invariant(
+    return invariant(
         "p_gamma",
         "kg m²/s",
         lambda scene, a: scene.bodies[0].inertia_array[2, 2] * a.omega[:, 0, 2],
@@ -146,11 +148,20 @@ def axial_angular_momentum() -> Observable:
 
 def momentum() -> Observable:
     """Linear momentum of all bodies, world axes."""
-    return _invariant("momentum", "kg m/s", mechanics.momentum, mechanics.momentum_scale)
+    return invariant("momentum", "kg m/s", mechanics.momentum, mechanics.momentum_scale)
 
 
 def unit_norm() -> Observable:
     """Norm of the quaternions, which must stay 1."""
-    return _invariant(
+    return invariant(
         "quaternion norm", "1", lambda scene, a: np.linalg.norm(a.quaternion, axis=2), lambda scene, b: 1.0
     )
+
+
+def attitude() -> Observable:
+    """Axes of bodies that cannot turn, in world axes."""
+
+    def axes(scene: Scene, a: Trajectory) -> Array:
+        return np.stack([quaternions.rotated(a.quaternion, axis) for axis in np.eye(3)], axis=2)
+
+    return invariant("attitude", "1", axes, lambda scene, b: 1.0)
