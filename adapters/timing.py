@@ -9,17 +9,21 @@ from time import perf_counter
 from ..scenarios.scene import Scene
 from .engine import Engine, Scheme
 
-#: Repeats of one cell, and how many are enough where a single one takes longer than ``LONG`` [s].
-REPEATS, FEW, LONG = 10, 3, 2.0
+#: Repeats of one cell.
+REPEATS = 10
+#: How long [s] one repeat steps: long against the clock's grain, short enough to repeat ten times.
+#: A cell that takes longer as a whole is timed over its first steps, and the time scaled to all of them.
+SPAN = 0.05
 #: Steps of the run that is not counted, which fills caches and tells how long the others will take.
 WARM_UP = 2000
 
 
 @dataclass(frozen=True)
 class Timing:
-    """Wall time [s] of all steps of one cell, over its repeats."""
+    """Wall time [s] of all ``steps`` of one cell, over its repeats, taken on the first ``timed`` of them."""
 
     steps: int
+    timed: int
     seconds: tuple[float, ...]
 
     @property
@@ -34,11 +38,16 @@ class Timing:
 
     def as_row(self) -> dict[str, float | int]:
         """The part of a work-precision row that speaks of time."""
-        return {"seconds_min": self.least, "seconds_median": self.median, "repeats": len(self.seconds)}
+        return {
+            "seconds_min": self.least,
+            "seconds_median": self.median,
+            "repeats": len(self.seconds),
+            "timed_steps": self.timed,
+        }
 
 
 def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timing:
-    """Time all steps of a cell, from its start each time, without looking at or logging a sample.
+    """Time the steps of a cell, from its start each time, without looking at or logging a sample.
 
     Pinned to one core where the system allows it, garbage collection off.
     """
@@ -47,9 +56,11 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
     machine = engine()
     try:
         warm_up = min(steps, WARM_UP)
-        expected = _once(machine, scene, scheme, dt, warm_up) * steps / warm_up
-        repeats = FEW if expected > LONG else REPEATS
-        return Timing(steps, tuple(_once(machine, scene, scheme, dt, steps) for _ in range(repeats)))
+        each = _once(machine, scene, scheme, dt, warm_up) / warm_up
+        stepped = min(steps, max(warm_up, round(SPAN / each)))
+        whole = steps / stepped
+        seconds = (_once(machine, scene, scheme, dt, stepped) * whole for _ in range(REPEATS))
+        return Timing(steps, stepped, tuple(seconds))
     finally:
         machine.close()
 

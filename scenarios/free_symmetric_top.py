@@ -42,7 +42,7 @@ def _top(variant: str, I1: float, I3: float) -> Scene:
         q0=(0.0, 0.0, 0.0, *ATTITUDE),
         v0=(*VELOCITY, 1.0, 0.0, 5.0),
         duration=10.0,
-        samples=500,
+        samples=250,
         truth=_truth,
         observables=(
             observables.orientation(),
