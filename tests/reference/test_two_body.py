@@ -62,6 +62,19 @@ def test_a_spring_of_some_length_swings_about_it():
     np.testing.assert_allclose(r[0, 0] - r[0, 1], positions[0] - positions[1], atol=1e-14)
 
 
+@pytest.mark.parametrize("size", [2.0**40, 2.0**-40])
+def test_a_spring_of_some_length_of_any_size(size):
+    # What counts as motion along the line scales with it; 1e-14 of it across is too much.
+    line = np.array([2.0, -1.0, 2.0]) / 3
+    positions, velocities = np.array([0.4 * line, -line]), np.array([-0.3 * line, 0.5 * line])
+    r, _ = spring_motion(0.7, 2.1, 5.0, positions, velocities, 1.9, 1.2)
+    large, _ = spring_motion(0.7, 2.1, 5.0, size * positions, size * velocities, 1.9, size * 1.2)
+    np.testing.assert_array_equal(large / size, r)
+    velocities[0] += 1e-14 * np.array([1.0, 2.0, 0.0])
+    with pytest.raises(InputError, match="across"):
+        spring_motion(0.7, 2.1, 5.0, size * positions, size * velocities, 1.9, size * 1.2)
+
+
 def test_the_phase_of_a_spring_survives_a_million_swings():
     m1, m2, k, t = 0.7, 2.1, 5.0, 3e6
     r, _ = spring_motion(m1, m2, k, R0, 0 * V0, t)
