@@ -13,6 +13,7 @@ import pytest
 from poinsot.reference import quaternions, torque_free
 from poinsot.reference.errors import InputError
 from poinsot.reference.heavy_top import motion, regular_precession
+from poinsot.reference.heavy_top_constants import constants, is_steady
 
 HERE = Path(__file__).parent
 GOLDENS = json.loads((HERE / "heavy_top_goldens.json").read_text(encoding="utf-8"))
@@ -132,6 +133,29 @@ def test_a_level_axis_precesses_steadily_where_gravity_and_gyroscope_agree(rate,
     # e2 was upright at first; e1 takes its place as the body turns about the level e3.
     e1 = quaternions.rotated(q, np.array([1.0, 0.0, 0.0]))
     assert np.allclose(e1[:, 2], np.sin(omega3 * t), atol=2e-15)
+
+
+@pytest.mark.parametrize(("p", "q"), [(16415, 28360), (28360, 16415), (3353, 32596)])
+def test_a_tilted_top_precesses_steadily_where_no_rounding_disturbs_it(p, q):
+    """With x = p/2¹⁵, w = q/2¹⁵ and x² + w² = n = 1 + 2⁻³⁰, n sinθ and n cosθ are doubles.
+
+    With I1 = 1, I3 = ½, ω2 = 2xw and ω3 = 6 the equation of regular precession asks of Mgl that it be
+    n(3 − w² + x²), and gives φ̇ = n.
+    """
+    x, w, n = p / 2**15, q / 2**15, 1 + 2.0**-30
+    top = {"mass": 1.0, "length": n, "moments": (1.0, 0.5), "gravity": 3 - w * w + x * x}
+    start = {"q0": [x, 0, 0, w], "omega0": [0, 2 * x * w, 6]}
+    assert is_steady(constants(**top, **start))
+    t = np.array([-7.0, 0.0, 0.3, 5.0])
+    attitude, omega = motion(**top, **start, t=t)
+    sine, cosine = 2 * x * w / n, (w * w - x * x) / n
+    e3 = np.stack([sine * np.sin(n * t), -sine * np.cos(n * t), cosine + 0 * t], axis=-1)
+    assert np.allclose(axis(attitude), e3, atol=1e-15)
+    # ω = φ̇ẑ + ψ̇e3, ψ̇ = ω3 − φ̇ cosθ: in the body it goes round backwards at ψ̇.
+    spin = 6 - n * cosine
+    assert np.allclose(quaternions.rotated(attitude, omega), spin * e3 + [0, 0, n], atol=8e-15)
+    turning = 2 * x * w * np.stack([np.sin(spin * t), np.cos(spin * t)], axis=-1)
+    assert np.allclose(omega[:, :2], turning, atol=8e-15)  # spin·t is rounded here
 
 
 @pytest.mark.parametrize("which", [0, 1])
