@@ -2,6 +2,7 @@
 
 import gc
 import time
+from typing import ClassVar
 
 import pytest
 from poinsot.adapters import timing
@@ -15,8 +16,8 @@ EACH = 2e-6
 class Sleeper:
     """Takes ``EACH`` seconds a step, and notes what it is asked for."""
 
-    asked = []
-    collecting = []
+    asked: ClassVar[list] = []
+    collecting: ClassVar[list] = []
 
     def build(self, scene, scheme, dt):
         pass
