@@ -29,13 +29,13 @@ def judge(
     broken = [verdict for cell in cells for verdict in _finite(cell)]
     sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
     alone = [v for cell in sound for v in (*truth.check(cell), *setup.check(cell), *setup.determinism(cell))]
-    ladders = _grouped(sound, lambda p: (p.scene, p.engine, p.engine_version, p.scheme))
-    twins = _grouped([c for c in sound if c.provenance.twin], lambda p: (p.scene, p.dt, p.twin))
+    ladders = [v for group in _grouped(sound, twin.scheme_of) for v in order.check(group)]
     on_record = tuple(deviations.recorded() if known is None else known)
-    together = [v for group in ladders for v in order.check(group)] + [
-        v for group in twins for v in twin.check(group, on_record)
-    ]
-    return deviations.applied([*broken, *alone, *together], on_record)
+    first = deviations.applied([*broken, *alone, *ladders], on_record)
+    suspects = {twin.scheme_of(verdict) for verdict in first if verdict.status is not Status.PASS}
+    twins = _grouped([c for c in sound if c.provenance.twin], lambda p: (p.scene, p.dt, p.twin))
+    second = [v for group in twins for v in twin.check(group, suspects, on_record)]
+    return [*first, *deviations.applied(second, on_record)]
 
 
 def _finite(cell: Cell) -> list[Verdict]:

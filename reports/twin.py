@@ -1,11 +1,12 @@
 """Twins: engines that run the same scheme at the same step must agree to rounding."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 
 from ..reference.checked import Array
 from ..scenarios.observables import Observable
+from ..scenarios.trajectory import Provenance
 from .cell import Cell
 from .deviations import Deviation
 from .growth import growth
@@ -17,12 +18,24 @@ BASE, PER_GROWTH = 1e-12, 1e-13
 CHAOTIC = 1e6
 
 
-def check(twins: Sequence[Cell], known: Iterable[Deviation] = ()) -> list[Verdict]:
+#: Scene, engine, its version and scheme: what is right or wrong as a whole, whatever the step.
+Ladder = tuple[str, str, str, str]
+
+
+def scheme_of(source: Provenance | Verdict) -> Ladder:
+    """The scene, engine, version and scheme of a cell or of a verdict on it."""
+    return (source.scene, source.engine, source.engine_version, source.scheme)
+
+
+def check(
+    twins: Sequence[Cell], suspects: Collection[Ladder] = (), known: Iterable[Deviation] = ()
+) -> list[Verdict]:
     """Verdicts on cells of one scene, one step and one twin name.
 
     A cell is held against the nearer half of the other engines' cells, so that where three run
-    the scheme and one is wrong, only that one fails. Where a cell has no other twin than one that
-    is ``known`` to deviate so far, the failure is known too: it is not the cell's own.
+    the scheme and one is wrong, only that one fails. ``suspects`` are those that fail checks of
+    their own: no other is held against them. Where a cell has no other twin than one that is
+    ``known`` to deviate so far, the failure is known too: it is not the cell's own.
     """
     if len({cell.provenance.engine for cell in twins}) < 2:
         return []
@@ -31,11 +44,21 @@ def check(twins: Sequence[Cell], known: Iterable[Deviation] = ()) -> list[Verdic
         return [cell.verdict("twin", "state", Status.PASS, _too_chaotic(A)) for cell in twins]
     allowed = BASE + PER_GROWTH * A
     deviations = tuple(known)
-    return [_judged(cell, twins, allowed, deviations) for cell in twins]
+    return [_judged(cell, _held_against(cell, twins, suspects), allowed, deviations) for cell in twins]
 
 
-def _judged(cell: Cell, twins: Sequence[Cell], allowed: float, known: Iterable[Deviation]) -> Verdict:
+def _held_against(cell: Cell, twins: Sequence[Cell], suspects: Collection[Ladder]) -> list[Cell]:
+    """The cells of other engines, and of those only the sound ones unless the cell is suspect itself."""
     others = [twin for twin in twins if twin.provenance.engine != cell.provenance.engine]
+    if scheme_of(cell.provenance) in suspects:
+        return others
+    return [twin for twin in others if scheme_of(twin.provenance) not in suspects]
+
+
+def _judged(cell: Cell, others: Sequence[Cell], allowed: float, known: Iterable[Deviation]) -> Verdict:
+    if not others:
+        message = "no twin check: every engine with the same scheme fails checks of its own"
+        return cell.verdict("twin", "state", Status.PASS, message)
     ranked = sorted(((_apart(cell, twin), twin) for twin in others), key=lambda pair: pair[0][0])
     (measured, observable, at), other = ranked[(len(ranked) - 1) // 2]
     name = f"{other.provenance.engine} {other.provenance.scheme}"
