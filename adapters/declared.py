@@ -2,7 +2,6 @@
 
 import ast
 import importlib.util
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,35 +29,48 @@ def declared() -> list[Declaration]:
 
 def _declaration(path: Path) -> Declaration:
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    names: dict[str, Any] = {"__package__": __package__}
+    homes: dict[str, ast.stmt] = {}
     for node in tree.body:
-        if isinstance(node, ast.ClassDef) and set(DECLARED) <= _assigned(node).keys():
-            name, features, schemes = (_value(_assigned(node)[key], names) for key in DECLARED)
+        if isinstance(node, ast.ClassDef) and set(DECLARED) <= _attributes(node).keys():
+            name, features, schemes = (_value(_attributes(node)[key], homes) for key in DECLARED)
             installed = importlib.util.find_spec(path.stem.removesuffix("_")) is not None
             return Declaration(name, features, schemes, installed)
-        _define(node, names)
+        homes |= dict.fromkeys(_defined(node), node)
     raise PoinsotError(f"{path.name}: got no class that declares {', '.join(DECLARED)}, expected one engine")
 
 
-def _assigned(node: ast.ClassDef) -> dict[str, ast.expr]:
-    return dict(_assignments(node))
+def _attributes(node: ast.ClassDef) -> dict[str, ast.expr]:
+    """The annotated attributes of a class, with their values."""
+    return {
+        part.target.id: part.value
+        for part in node.body
+        if isinstance(part, ast.AnnAssign) and isinstance(part.target, ast.Name) and part.value
+    }
 
 
-def _assignments(node: ast.ClassDef) -> Iterator[tuple[str, ast.expr]]:
-    for part in node.body:
-        if isinstance(part, ast.AnnAssign) and isinstance(part.target, ast.Name) and part.value:
-            yield part.target.id, part.value
+def _defined(node: ast.stmt) -> list[str]:
+    """Names that a statement takes from Poinsot itself or assigns."""
+    if isinstance(node, ast.ImportFrom) and node.level > 0:
+        return [alias.asname or alias.name for alias in node.names]
+    if isinstance(node, ast.Assign):
+        return _names(*node.targets)
+    return []
 
 
-def _define(node: ast.stmt, names: dict[str, Any]) -> None:
-    """Carry out an import from Poinsot itself or an assignment, unless it needs the engine."""
-    ours = isinstance(node, ast.ImportFrom) and node.level > 0
-    if ours or isinstance(node, ast.Assign):
-        try:
-            exec(compile(ast.Module([node], []), "<declaration>", "exec"), names)  # noqa: S102 (own source)
-        except NameError:
-            return
+def _names(*nodes: ast.AST) -> list[str]:
+    return [part.id for node in nodes for part in ast.walk(node) if isinstance(part, ast.Name)]
 
 
-def _value(expression: ast.expr, names: dict[str, Any]) -> Any:
-    return eval(compile(ast.Expression(expression), "<declaration>", "eval"), names)  # noqa: S307 (own source)
+def _value(expression: ast.expr, homes: dict[str, ast.stmt]) -> Any:
+    """The value of an expression, once the statements it stands on have been carried out, and no others."""
+    found: dict[str, Any] = {"__package__": __package__}
+    _carry_out(expression, homes, found)
+    return eval(compile(ast.Expression(expression), "<declaration>", "eval"), found)  # noqa: S307 (own source)
+
+
+def _carry_out(node: ast.AST, homes: dict[str, ast.stmt], found: dict[str, Any]) -> None:
+    for name in _names(node):
+        if name in homes and name not in found:
+            if isinstance(homes[name], ast.Assign):
+                _carry_out(homes[name].value, homes, found)  # type: ignore[attr-defined]
+            exec(compile(ast.Module([homes[name]], []), "<declaration>", "exec"), found)  # noqa: S102 (own source)

@@ -26,16 +26,16 @@ def as_json() -> str:
 
 def as_text() -> str:
     """Every scene and every engine, a few lines each."""
-    lines = ["Scenes"]
+    lines, engines = ["Scenes"], declared()
     for name, scene in scenes().items():
-        able = [engine.name for engine in declared() if _able(scene, engine)]
+        able = [engine.name for engine in engines if _able(scene, engine)]
         lines += [
             f"  {name}",
             f"      {scene.summary}",
             f"      needs {', '.join(sorted(scene.features))}; can run in {', '.join(able)}",
         ]
     lines += ["", "Engines"]
-    for engine in declared():
+    for engine in engines:
         lines.append(f"  {engine.name}{'' if engine.installed else ' (not installed)'}")
         lines += [
             f"      {scheme.name}: order {scheme.order}, twin name {scheme.twin!r}"
