@@ -4,23 +4,13 @@ import numpy as np
 
 from ..reference import torque_free
 from ..reference.checked import Array
-from . import observables, pictures
+from . import free_body, observables, pictures
 from .body import Body, Joint, diagonal
 from .scene import Scene
 from .trajectory import Trajectory
 
 ATTITUDE = (0.1, 0.7, -0.1, 0.7)
 VELOCITY = (0.3, -0.2, 0.1)
-
-
-def _truth(scene: Scene, t: Array) -> Trajectory:
-    q0, v0 = np.array(scene.q0), np.array(scene.v0)
-    moments = np.diag(scene.bodies[0].inertia_array)
-    q, omega = torque_free.motion(moments, q0[3:], v0[3:], t)
-    position = q0[:3] + np.outer(t, v0[:3])
-    velocity = np.broadcast_to(v0[:3], position.shape)
-    none = np.empty((len(t), 0))
-    return Trajectory(t, position[:, None], q[:, None], velocity[:, None], omega[:, None], none, none)
 
 
 def _body_cone_rate(scene: Scene) -> float:
@@ -43,7 +33,7 @@ def _top(variant: str, I1: float, I3: float) -> Scene:
         v0=(*VELOCITY, 1.0, 0.0, 5.0),
         duration=10.0,
         samples=250,
-        truth=_truth,
+        truth=free_body.truth,
         observables=(
             observables.orientation(),
             observables.omega(),

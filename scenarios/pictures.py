@@ -45,6 +45,15 @@ def body_cone() -> Picture:
     )
 
 
+def space_cone() -> Picture:
+    """The first body's angular velocity in world axes."""
+    return Picture(
+        "ω on the space cone",
+        ("ωx [rad/s]", "ωy [rad/s]", "ωz [rad/s]"),
+        lambda scene, m: quaternions.rotated(m.quaternion[:, 0], m.omega[:, 0]),
+    )
+
+
 def against_time(title: str, label: str, value: Callable[[Scene, Trajectory], Array]) -> Picture:
     """One scalar of the motion, ``value`` (n,), over time."""
     return Picture(

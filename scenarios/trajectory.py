@@ -96,6 +96,11 @@ def about_fixed_point(t: Array, center_of_mass: Array, quaternion: Array, omega:
     """
     position = quaternions.rotated(quaternion, center_of_mass)
     velocity = quaternions.rotated(quaternion, np.cross(omega, center_of_mass))
+    return of_one_body(t, position, quaternion, velocity, omega)
+
+
+def of_one_body(t: Array, position: Array, quaternion: Array, velocity: Array, omega: Array) -> Trajectory:
+    """Motion of one body without scalar joints: arrays as of a ``Trajectory``, without its axis of bodies."""
     none = np.empty((len(t), 0))
     return Trajectory(
         t, position[:, None], quaternion[:, None], velocity[:, None], omega[:, None], none, none

@@ -1,0 +1,54 @@
+"""One rigid body that nothing acts on: its exact motion, whatever its tensor and wherever its centre."""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..reference import quaternions, torque_free
+from ..reference.checked import Array
+from ..reference.inertia import principal
+from .scene import Scene
+from .trajectory import Trajectory, of_one_body
+
+
+def truth(scene: Scene, t: Array) -> Trajectory:
+    """Motion of the scene's one body, on a free joint, at the times ``t`` (n,) [s]."""
+    body = scene.bodies[0]
+    q0, v0 = np.array(scene.q0), np.array(scene.v0)
+    q, omega = turning(body.inertia_array, q0[3:], v0[3:], t)
+    centre = np.array(body.center_of_mass)
+    velocity = v0[:3] + quaternions.rotated(q0[3:], np.cross(v0[3:], centre))
+    position = q0[:3] + quaternions.rotated(q0[3:], centre) + np.outer(t, velocity)
+    return of_one_body(t, position, q, np.broadcast_to(velocity, position.shape), omega)
+
+
+def turning(inertia: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:
+    """Attitude (n, 4) and ω (n, 3) in body axes [rad/s] of a body that no torque acts on.
+
+    ``inertia`` (3, 3) [kg m²] about the point that it turns about, in body axes, need not be diagonal.
+    """
+    if np.array_equal(inertia, np.diag(np.diag(inertia))):
+        return torque_free.motion(np.diag(inertia), q0, omega0, t)
+    moments, axes = principal(inertia)
+    turn = np.asarray(Rotation.from_matrix(axes).as_quat())
+    back = quaternions.conjugate(turn)
+    q, omega = torque_free.motion(
+        moments, quaternions.product(q0, turn), quaternions.rotated(back, omega0), t
+    )
+    return quaternions.product(q, back), quaternions.rotated(turn, omega)
+
+
+def around_momentum(scene: Scene, vectors: Array) -> Array:
+    """World ``vectors`` (n, 3) seen along the L that the body starts with: as complex numbers (n,).
+
+    Their phase turns as the vectors go round L, in the sense of L.
+    """
+    along = momentum_direction(scene)
+    across = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
+    across /= np.linalg.norm(across)
+    return np.asarray(vectors @ across + 1j * (vectors @ np.cross(along, across)))
+
+
+def momentum_direction(scene: Scene) -> Array:
+    """L/|L| (3,) of the body's spin at the start, world axes: where it points for ever."""
+    spin = scene.bodies[0].inertia_array @ np.array(scene.v0[-3:])
+    return quaternions.rotated(np.array(scene.q0[-4:]), spin / np.linalg.norm(spin))

@@ -1,0 +1,56 @@
+"""What tests of scenes share: a wrong engine's failed checks, and how fast a phase of the truth turns."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from poinsot.adapters.engine import Engine, Setup
+from poinsot.adapters.simulate import simulate
+from poinsot.reports import setup
+from poinsot.reports.judge import judge
+from poinsot.reports.verdict import Status
+from poinsot.scenarios.scene import Scene
+
+_FIELDS = ("position", "quaternion", "velocity", "omega", "joint_position", "joint_velocity")
+
+
+class _Lying:
+    """Repeats what was asked for, whatever was built: only its motion gives it away."""
+
+    def build(self, scene, scheme, dt):
+        self._asked = scene, dt
+        super().build(scene, scheme, dt)
+
+    def readback(self):
+        return Setup(setup.expected(*self._asked))
+
+
+@pytest.fixture
+def failed() -> Callable[..., set[tuple[str, str]]]:
+    """Kind and observable of every check that fails on an engine alone, over the ladder of a scheme."""
+
+    def find(engine: type[Engine], scene: Scene, twin: str = "semi-implicit Euler") -> set[tuple[str, str]]:
+        liar = type(engine.__name__, (_Lying, engine), {})
+        scheme = next(scheme for scheme in engine.schemes if scheme.twin == twin)
+        steps = scene.ladder(scheme.order, twin)
+        runs = [simulate(scene, liar, scheme, scene.whole_step(dt))[0] for dt in steps]
+        verdicts = judge(runs, {scene.full_name: scene}, ())
+        return {(v.check, v.observable) for v in verdicts if v.status is Status.FAIL}
+
+    return find
+
+
+@pytest.fixture
+def own_rate() -> Callable[..., float]:
+    """Rate [rad/s] at which the exact motion itself turns the phase that a rate observable follows."""
+
+    def find(scene: Scene, name: str, duration: float = 0.0, samples: int = 2000) -> float:
+        (observable,) = (o for o in scene.observables if o.name == name)
+        t = np.linspace(0.0, duration or scene.duration, samples)
+        motion = scene.truth(scene, t)
+        arrays = {field: getattr(motion, field) for field in _FIELDS}
+        stopped = replace(motion, **{field: np.repeat(a[:1], len(t), axis=0) for field, a in arrays.items()})
+        return float(observable.difference(scene, motion, stopped)[0, 0])
+
+    return find
