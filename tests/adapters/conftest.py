@@ -5,7 +5,6 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
-from poinsot.reference import equations_of_motion
 from poinsot.scenarios.body import Body, Joint
 from poinsot.scenarios.scene import Scene
 from poinsot.scenarios.trajectory import Provenance, Trajectory
@@ -161,28 +160,3 @@ def _unit(rng: np.random.Generator, n: int) -> np.ndarray:
 
 def _tuple(vector: np.ndarray) -> tuple[float, ...]:
     return tuple(float(x) for x in vector)
-
-
-@pytest.fixture
-def links_of() -> Callable[[Scene], list[equations_of_motion.Link]]:
-    """The same tree, for the reference equations of motion, which know no engine and no scene."""
-
-    def make(scene: Scene) -> list[equations_of_motion.Link]:
-        names = [body.name for body in scene.bodies]
-        return [
-            equations_of_motion.Link(
-                mass=body.mass,
-                inertia=body.inertia_array,
-                com=body.center_of_mass,
-                parent=names.index(body.parent) if body.parent else -1,
-                joints=tuple(
-                    equations_of_motion.Joint(j.kind, j.axis, stiffness=j.stiffness, damping=j.damping)
-                    for j in body.joints
-                ),
-                position=body.position,
-                quaternion=body.quaternion,
-            )
-            for body in scene.bodies
-        ]
-
-    return make
