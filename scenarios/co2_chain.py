@@ -129,6 +129,7 @@ def _chain(variant: str, amplitudes: Vector) -> Scene:
             observables.energy(),
             observables.momentum(),
             observables.attitude(),
+            observables.turning(),
             observables.invariant("joint residual", "m", _apart, _largest("position")),
             observables.invariant("joint speed residual", "m/s", _apart_in_speed, _largest("velocity")),
         ),

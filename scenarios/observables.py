@@ -97,6 +97,24 @@ def rate(
     return Observable(name, "rad/s", "rate", difference, lambda scene, b: abs(exact(scene)))
 
 
+def fitted(
+    name: str,
+    unit: str,
+    value: Callable[[Scene, Trajectory], float],
+    exact: Callable[[Scene], float],
+) -> Observable:
+    """One number that ``value`` takes from a whole motion, against what it takes from the exact one.
+
+    Both are taken from the same samples in the same way, so that what the fit itself is off cancels.
+    A test of each scene holds what the fit makes of the truth against the closed form ``exact``.
+    """
+
+    def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
+        return np.array([[value(scene, a) - value(scene, b)]])
+
+    return Observable(name, unit, "rate", difference, lambda scene, b: abs(exact(scene)))
+
+
 def invariant(
     name: str,
     unit: str,
@@ -165,3 +183,10 @@ def attitude() -> Observable:
         return np.stack([quaternions.rotated(a.quaternion, axis) for axis in np.eye(3)], axis=2)
 
     return invariant("attitude", "1", axes, lambda scene, b: 1.0)
+
+
+def turning() -> Observable:
+    """Angular velocity of bodies that cannot turn; round-off is measured against one turn in the whole run."""
+    return invariant(
+        "turning", "rad/s", lambda scene, a: a.omega, lambda scene, b: 2 * np.pi / scene.duration
+    )
