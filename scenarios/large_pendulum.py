@@ -1,0 +1,136 @@
+"""A pendulum that swings far beyond the small angles, and one that goes over the top.
+
+The hinge's axis lies askew in the horizontal plane and away from the origin. An engine whose hinge angle is
+folded into (−π, π] loses its turns in the variant that goes round, and only there.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from ..reference import plane_pendulum, quaternions
+from ..reference.checked import Array
+from . import observables, pictures
+from .body import Body, Joint, diagonal
+from .scene import Scene
+from .trajectory import Trajectory
+
+#: Mass [kg], distance of the centre of mass [m], its moment about any axis [kg m²], g [m/s²].
+MASS, ARM, MOMENT, G = 1.2, 0.4, 0.004, 9.81
+#: Length [m] of the point pendulum that swings alike, I/(ml).
+LENGTH = (MOMENT + MASS * ARM**2) / (MASS * ARM)
+AXIS, HINGE = (0.6, 0.8, 0.0), (0.3, -0.2, 0.1)
+
+
+def _truth(scene: Scene, t: Array) -> Trajectory:
+    theta, rate = plane_pendulum.motion(G, LENGTH, scene.q0[0], scene.v0[0], t)
+    axis, arm = np.array(AXIS), np.array(scene.bodies[0].center_of_mass)
+    q = quaternions.from_rotation_vector(theta[:, None] * axis)
+    omega = rate[:, None] * axis
+    position = np.array(HINGE) + quaternions.rotated(q, arm)
+    velocity = quaternions.rotated(q, np.cross(omega, arm))
+    return Trajectory(
+        t, position[:, None], q[:, None], velocity[:, None], omega[:, None], theta[:, None], rate[:, None]
+    )
+
+
+@cache
+def _rate(scene: Scene) -> float:
+    """Swings or turns of 2π a second [rad/s]."""
+    if scene.variant == "round":
+        fastest = np.hypot(scene.v0[0], 2 * np.sqrt(G / LENGTH) * np.sin(scene.q0[0] / 2))
+        return 2 * np.pi / plane_pendulum.rotation_period(G, LENGTH, float(fastest))
+    sine = np.hypot(np.sin(scene.q0[0] / 2), scene.v0[0] / (2 * np.sqrt(G / LENGTH)))
+    return 2 * np.pi / plane_pendulum.period(G, LENGTH, float(2 * np.arcsin(sine)))
+
+
+def _swinging(scene: Scene, motion: Trajectory) -> Array:
+    """A closed curve round 0, once a swing or once a turn."""
+    angle, speed = motion.joint_position[:, 0], motion.joint_velocity[:, 0]
+    if scene.variant == "round":
+        return np.asarray(np.exp(1j * angle))
+    return np.asarray(angle - 1j * speed / np.sqrt(G / LENGTH))
+
+
+def _twist(scene: Scene, motion: Trajectory) -> Array:
+    """What the attitude and the whole angle of the hinge, turns and all, differ from the axis' own."""
+    turn = quaternions.from_rotation_vector(motion.joint_position * np.array(AXIS))
+    attitude = quaternions.product(quaternions.conjugate(turn), motion.quaternion[:, 0])
+    return np.column_stack([quaternions.rotation_vector(attitude), motion.omega[:, 0] - _spin(motion)])
+
+
+def _spin(motion: Trajectory) -> Array:
+    return np.asarray(motion.joint_velocity * np.array(AXIS))
+
+
+def _angle() -> observables.Observable:
+    """The hinge's angle, whole turns kept."""
+    return observables.Observable(
+        "hinge angle",
+        "rad",
+        "state",
+        lambda scene, a, b: np.asarray(a.joint_position - b.joint_position),
+        lambda scene, b: float(np.abs(b.joint_position).max()),
+    )
+
+
+def _pendulum(variant: str, summary: str, start: tuple[float, float]) -> Scene:
+    return Scene(
+        name="large_pendulum",
+        variant=variant,
+        summary=f"A pendulum on a horizontal hinge, {summary}.",
+        source="Landau & Lifshitz, Mechanics, § 11 problem 1; Whittaker, Analytical Dynamics, § 44",
+        bodies=(
+            Body(
+                "pendulum",
+                MASS,
+                diagonal(MOMENT, MOMENT, MOMENT),
+                (Joint("hinge", "hinge", AXIS),),
+                center_of_mass=(0.0, 0.0, -ARM),
+                position=HINGE,
+            ),
+        ),
+        gravity=(0.0, 0.0, -G),
+        q0=start[:1],
+        v0=start[1:],
+        duration=2.5,
+        samples=125,
+        truth=_truth,
+        observables=(
+            observables.orientation(),
+            observables.omega(),
+            observables.position(),
+            observables.velocity(),
+            _angle(),
+            observables.rate("frequency", _swinging, _rate),
+            observables.energy(),
+            observables.invariant(
+                "hinge residual", "1", _twist, lambda scene, b: float(np.abs(b.omega).max())
+            ),
+        ),
+        pictures=(pictures.against_time("Angle", "θ [rad]", lambda scene, m: m.joint_position[:, 0]),),
+        ladders={1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)},
+        errors=ERRORS[variant],
+    )
+
+
+#: C of C·dt^order of each observable in turn, measured by benchmarks/error_constants.py with MuJoCo 4.0.0.
+ERRORS: dict[str, dict[str, tuple[float, ...]]] = {
+    "swing": {
+        "semi-implicit Euler": (58.0, 170.0, 24.0, 220.0, 58.0, 12.0, 33.0, 0.0),
+        "RKMK4": (140.0, 360.0, 54.0, 500.0, 140.0, 25.0, 41.0, 0.0),
+    },
+    "round": {
+        "semi-implicit Euler": (120.0, 290.0, 46.0, 460.0, 120.0, 34.0, 37.0, 0.0),
+        "RKMK4": (110.0, 260.0, 43.0, 440.0, 110.0, 30.0, 53.0, 0.0),
+    },
+}
+for row in ERRORS.values():
+    # On one hinge nothing is gyroscopic and nothing damped: measured alike in all digits kept.
+    row["implicit gyroscopic"] = row["implicitfast"] = row["discrete"] = row["semi-implicit Euler"]
+
+SCENES = (
+    _pendulum("swing", "to and fro between ±2.5 rad", (1.0, -8.0)),
+    # Faster, and Runge-Kutta's energy drift of order 5 hides the phase error of order 4 at these steps.
+    _pendulum("round", "over the top, round and round", (1.0, 9.0)),
+)
