@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-import scipy.optimize
+import scipy
 
 from .checked import Array, finite, not_negative, number, positive, within
 from .errors import InputError

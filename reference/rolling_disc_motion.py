@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import scipy.integrate
+import scipy
 
 from . import quaternions
 from .checked import Array, finite, times, unit_quaternion

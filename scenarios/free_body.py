@@ -1,7 +1,7 @@
 """One rigid body that nothing acts on: its exact motion, whatever its tensor and wherever its centre."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import scipy
 
 from ..reference import quaternions, torque_free
 from ..reference.checked import Array
@@ -29,7 +29,7 @@ def turning(inertia: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, 
     if np.array_equal(inertia, np.diag(np.diag(inertia))):
         return torque_free.motion(np.diag(inertia), q0, omega0, t)
     moments, axes = principal(inertia)
-    turn = np.asarray(Rotation.from_matrix(axes).as_quat())
+    turn = np.asarray(scipy.spatial.transform.Rotation.from_matrix(axes).as_quat())
     back = quaternions.conjugate(turn)
     q, omega = torque_free.motion(
         moments, quaternions.product(q0, turn), quaternions.rotated(back, omega0), t
