@@ -189,3 +189,11 @@ class Scene:
                 raise InputError(
                     f"q0 of joint {joint.name!r}: got {q0[where].tolist()}, expected a unit quaternion"
                 )
+
+
+def every_scheme(rows: Mapping[str, tuple[float, ...]], like: str) -> dict[str, tuple[float, ...]]:
+    """Error constants ``rows`` with those of MuJoCo's own twins added.
+
+    On the scene at hand its ``implicitfast`` and its ``discrete`` are the scheme ``like``, bit for bit.
+    """
+    return {**rows, "implicitfast": rows[like], "discrete": rows[like]}
