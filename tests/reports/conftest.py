@@ -1,10 +1,12 @@
 """Results and motions as a run leaves them: realistic in every field, made by rule, no engine needed."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from poinsot.reports import setup
 from poinsot.reports.plots import Motion
 from poinsot.reports.verdict import Status
 from poinsot.scenarios import observables, pictures
@@ -325,3 +327,20 @@ def remade() -> Callable[..., dict[str, Any]]:
 def moved() -> Callable[..., Iterator[Motion]]:
     """Makes the motions of some scenes."""
     return motions
+
+
+@pytest.fixture(scope="session")
+def ahead() -> Callable[..., Trajectory]:
+    """Makes the run of a scheme that is right but for its clock: it runs fast by the part c·dt^order.
+
+    Its error is of that order in everything that moves; ``changes`` go into its provenance.
+    """
+
+    def make(of: Scene, dt: float, order: int = 1, c: float = 1e-2, **changes: Any) -> Trajectory:
+        t = of.sample_times()
+        early = of.truth(of, t * (1 + c * dt**order))
+        steps, asked = of.samples * of.steps_per_sample(dt), setup.expected(of, dt)
+        own = Provenance(of.full_name, "alpha", "1.0", "own", order, "own", dt, steps, setup=asked)
+        return replace(early, t=t, provenance=replace(own, **changes))
+
+    return make
