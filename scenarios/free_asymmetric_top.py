@@ -19,16 +19,9 @@ ATTITUDE = (0.5, -0.1, 0.7, 0.5)
 VELOCITY = (-0.02, 0.05, 0.01)
 
 
-def _circled(scene: Scene) -> int:
-    """The axis that L circles in the body: that of the largest moment if L² > 2T·I2, else of the smallest."""
-    moments, omega = np.diag(scene.bodies[0].inertia_array), np.array(scene.v0[3:])
-    beyond = moments @ (omega**2 * (moments - np.median(moments)))
-    return int(np.argmax(moments) if beyond > 0 else np.argmin(moments))
-
-
 def _beside(scene: Scene, motion: Trajectory) -> Array:
     """Components (2, n) of ω along the two other axes, in cyclic order."""
-    axis = _circled(scene)
+    axis = free_body.circled_axis(scene)
     return motion.omega[:, 0, [(axis + 1) % 3, (axis + 2) % 3]].T
 
 
@@ -50,7 +43,7 @@ def _amplitude_ratio(scene: Scene, motion: Trajectory) -> float:
 
 
 def _small_ratio(scene: Scene) -> float:
-    return wobble.wobble_ratio(np.diag(scene.bodies[0].inertia_array), _circled(scene))
+    return wobble.wobble_ratio(np.diag(scene.bodies[0].inertia_array), free_body.circled_axis(scene))
 
 
 #: Of small ellipses only: far from the axes there is no such closed form.

@@ -37,6 +37,13 @@ def turning(inertia: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, 
     return quaternions.product(q, back), quaternions.rotated(turn, omega)
 
 
+def circled_axis(scene: Scene) -> int:
+    """The body axis that L circles: of the largest moment if L² > 2T·I2, else of the smallest."""
+    moments, omega = np.diag(scene.bodies[0].inertia_array), np.array(scene.v0[-3:])
+    beyond = moments @ (omega**2 * (moments - np.median(moments)))
+    return int(np.argmax(moments) if beyond > 0 else np.argmin(moments))
+
+
 def around_momentum(scene: Scene, vectors: Array) -> Array:
     """World ``vectors`` (n, 3) seen along the L that the body starts with: as complex numbers (n,).
 
