@@ -1,0 +1,160 @@
+"""Known deviations: granted up to their bound, in their versions, and no longer than they last."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from poinsot.adapters.declared import declared
+from poinsot.reference.errors import InputError
+from poinsot.reports import deviations
+from poinsot.reports.deviations import Deviation
+from poinsot.reports.verdict import Status, Verdict
+from poinsot.scenarios.registry import scenes
+
+ENTRY = Deviation(
+    "heavy_top[fast]", "alpha", "Euler", ">=1,<3", "truth", "omega", 1e-3, "it drifts; see its issue 7"
+)
+FAILED = Verdict(
+    "heavy_top[fast]", "alpha", "2.1", "Euler", 1e-3, "truth", "omega", Status.FAIL, 5e-4, 1e-4, "rad/s",
+    1.5, "far",
+)  # fmt: skip
+PASSED = replace(FAILED, status=Status.PASS, measured=5e-5)
+
+
+def test_a_failure_inside_its_bound_is_known():
+    (found,) = deviations.applied([FAILED], [ENTRY])
+    assert (found.status, found.message) == (Status.KNOWN, "far; known: it drifts; see its issue 7")
+    assert replace(found, status=Status.FAIL, message="far") == FAILED
+
+
+def test_a_failure_beyond_its_bound_stays_and_says_so():
+    (found,) = deviations.applied([replace(FAILED, measured=2e-3)], [ENTRY])
+    assert (found.status, found.message) == (Status.FAIL, "far; beyond the recorded bound of 0.001")
+
+
+def test_a_deviation_that_is_gone_is_fixed_and_fails():
+    (found,) = deviations.applied([PASSED], [ENTRY])
+    assert found.status is Status.FIXED
+    assert not found.status.conforms
+    assert found.message.endswith("but does so no longer; remove the record")
+
+
+def test_a_deviation_that_is_left_somewhere_is_not_gone():
+    found = deviations.applied([PASSED, replace(FAILED, dt=5e-4)], [ENTRY])
+    assert [v.status for v in found] == [Status.PASS, Status.KNOWN]
+
+
+@pytest.mark.parametrize("status", [Status.ERROR, Status.UNSUPPORTED, Status.UNAVAILABLE])
+def test_only_a_failed_check_is_excused(status):
+    broken = replace(FAILED, status=status)
+    assert deviations.applied([broken], [ENTRY]) == [broken]
+
+
+def test_a_failure_without_a_number_is_not_inside_any_bound():
+    found = deviations.applied([replace(FAILED, measured=None)], [ENTRY])
+    assert [v.status for v in found] == [Status.FAIL]
+
+
+def test_a_failure_that_is_no_number_is_not_inside_any_bound():
+    found = deviations.applied([replace(FAILED, measured=float("nan"))], [ENTRY])
+    assert [v.status for v in found] == [Status.FAIL]
+
+
+ELSEWHERE = [
+    {"engine": "beta"}, {"scheme": "RK4"}, {"check": "invariant"}, {"observable": "orientation"},
+    {"scene": "heavy_top[cusps]"}, {"engine_version": "3.0"}, {"engine_version": "0.9"},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("change", ELSEWHERE)
+def test_an_entry_speaks_of_nothing_else(change):
+    other = replace(FAILED, **change)
+    assert not ENTRY.applies(other)
+    assert deviations.applied([other, FAILED], [ENTRY])[0] == other
+
+
+@pytest.mark.parametrize(
+    ("change", "applies"),
+    [
+        ({"scene": "heavy_top*"}, True),
+        ({"scene": "*"}, True),
+        ({"scene": "heavy_top"}, False),
+        ({"scene": "heavy_top[f*]"}, True),
+        ({"scene": "heavy_top[c*]"}, False),  # a bracket stands for itself: f is no c
+        ({"scene": "heavy_topf"}, False),
+        ({"observable": "om*"}, True),
+        ({"scheme": "Eul?r"}, True),
+        ({"versions": "==2.1"}, True),
+        ({"versions": ""}, True),
+        ({"dt": 1e-3}, True),
+        ({"dt": 9e-4}, False),
+        ({"engine": "al*"}, False),
+    ],
+)
+def test_patterns_versions_and_steps(change, applies):
+    assert replace(ENTRY, **change).applies(FAILED) is applies
+
+
+def test_a_release_candidate_is_in_its_range():
+    assert replace(ENTRY, versions=">=2").applies(replace(FAILED, engine_version="2.1rc1"))
+
+
+def test_entries_that_speak_of_no_check_are_named():
+    made = [FAILED]
+    assert deviations.unmatched(made, [ENTRY]) == []
+    (said,) = deviations.unmatched(made, [replace(ENTRY, observable="spin")])
+    assert said.startswith(
+        "known deviation of alpha Euler in heavy_top[fast]: truth of spin is no check that was made"
+    )
+    # Of an engine that was not run there is nothing to say.
+    assert deviations.unmatched(made, [replace(ENTRY, engine="beta")]) == []
+
+
+TEXT = """
+[[deviation]]
+scene = "heavy_top[fast]"
+engine = "alpha"
+scheme = "Euler"
+versions = ">=1,<3"
+check = "truth"
+observable = "omega"
+bound = 1e-3
+reason = "it drifts; see its issue 7"
+"""
+
+
+def test_an_entry_is_read_as_it_is_written():
+    assert deviations.parsed(TEXT) == (ENTRY,)
+    assert deviations.parsed(TEXT + "dt = 2e-3\n") == (replace(ENTRY, dt=2e-3),)
+    assert deviations.parsed("") == ()
+
+
+@pytest.mark.parametrize(
+    ("line", "instead", "says"),
+    [
+        ('engine = "alpha"\n', "", "entry 1: got ['bound', 'check', 'observable', "),
+        ('engine = "alpha"', 'engine = "alpha"\nseverity = "low"', "'severity'"),
+        ('check = "truth"', 'check = "energy"', "got check 'energy', expected one of truth, order, twin"),
+        ('versions = ">=1,<3"', 'versions = "2.x"', "got versions '2.x'"),
+        (
+            'reason = "it drifts; see its issue 7"',
+            'reason = ""',
+            "got no reason, expected a link or a measurement",
+        ),
+    ],
+)
+def test_an_entry_that_cannot_be_is_refused_by_number_and_fault(line, instead, says):
+    assert line in TEXT
+    with pytest.raises(InputError, match=re.escape(says)) as caught:
+        deviations.parsed(TEXT.replace(line, instead))
+    assert str(caught.value).startswith("known_deviations.toml, entry 1: ")
+
+
+def test_the_entries_that_ship_speak_of_what_there_is():
+    schemes = {(engine.name, scheme.name) for engine in declared() for scheme in engine.schemes}
+    for entry in deviations.recorded():
+        assert (entry.engine, entry.scheme) in schemes
+        assert entry.scene in scenes()
+        assert len(entry.reason) > 40
+        assert entry.versions.startswith("==")  # measured in one version, and known of no other
+        assert 0 < entry.bound < 1e-3
