@@ -89,7 +89,7 @@ def test_the_sound_cell_is_logged(outcomes):
         ("Exits", "exit code 7"),
         ("Hangs", "time limit of 15 s"),
         ("Raises", "RuntimeError: the solver did not converge"),
-        ("TurnsToNaN", "not finite at t = 0.02 s"),
+        ("TurnsToNaN", "not finite at t = 0.04 s"),
         ("Missing", "has no 'Missing'"),
     ],
 )
