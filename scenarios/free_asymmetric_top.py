@@ -19,15 +19,8 @@ ATTITUDE = (0.5, -0.1, 0.7, 0.5)
 VELOCITY = (-0.02, 0.05, 0.01)
 
 
-def _beside(scene: Scene, motion: Trajectory) -> Array:
-    """Components (2, n) of ω along the two other axes, in cyclic order."""
-    axis = free_body.circled_axis(scene)
-    return motion.omega[:, 0, [(axis + 1) % 3, (axis + 2) % 3]].T
-
-
 def _round(scene: Scene, motion: Trajectory) -> Array:
-    first, second = _beside(scene, motion)
-    return np.asarray(first + 1j * second)
+    return free_body.around_axis(scene, motion.omega[:, 0])
 
 
 def _rate(scene: Scene) -> float:
@@ -38,8 +31,8 @@ def _rate(scene: Scene) -> float:
 
 def _amplitude_ratio(scene: Scene, motion: Trajectory) -> float:
     """Root mean square of the second over that of the first: on an ellipse, √(Ω2/Ω1)."""
-    first, second = np.linalg.norm(_beside(scene, motion), axis=1)
-    return float(second / first)
+    around = _round(scene, motion)
+    return float(np.linalg.norm(around.imag) / (np.linalg.norm(around.real) or 1.0))
 
 
 def _small_ratio(scene: Scene) -> float:

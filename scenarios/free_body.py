@@ -44,6 +44,15 @@ def circled_axis(scene: Scene) -> int:
     return int(np.argmax(moments) if beyond > 0 else np.argmin(moments))
 
 
+def around_axis(scene: Scene, vectors: Array) -> Array:
+    """Body ``vectors`` (n, 3) seen along the axis that L circles: as complex numbers (n,).
+
+    The phase of those of ω turns by 2π in one round of the polhode.
+    """
+    axis = circled_axis(scene)
+    return np.asarray(vectors[:, (axis + 1) % 3] + 1j * vectors[:, (axis + 2) % 3])
+
+
 def around_momentum(scene: Scene, vectors: Array) -> Array:
     """World ``vectors`` (n, 3) seen along the L that the body starts with: as complex numbers (n,).
 

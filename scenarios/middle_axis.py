@@ -33,7 +33,9 @@ def _growth(scene: Scene, motion: Trajectory) -> float:
     """Slope of the logarithm of the growing part, as long as it is expected to be small [1/s]."""
     start = np.linalg.norm(scene.v0[4:]) / scene.v0[3]
     early = motion.t <= np.log(SMALL / start) / _growth_rate(scene)
-    return float(np.polyfit(motion.t[early], np.log(np.abs(_growing(scene, motion)[early])), 1)[0])
+    size = np.abs(_growing(scene, motion)[early])
+    # A body that stops has no logarithm, but it is the engine that is wrong.
+    return float(np.polyfit(motion.t[early], np.log(np.maximum(size, 1e-300)), 1)[0])
 
 
 def _growth_rate(scene: Scene) -> float:
@@ -42,8 +44,7 @@ def _growth_rate(scene: Scene) -> float:
 
 def _flipping(scene: Scene, motion: Trajectory) -> Array:
     """ω seen along the axis that it circles, one of largest or smallest moment: a half turn is a flip."""
-    axis = free_body.circled_axis(scene)
-    return np.asarray(motion.omega[:, 0, (axis + 1) % 3] + 1j * motion.omega[:, 0, (axis + 2) % 3])
+    return free_body.around_axis(scene, motion.omega[:, 0])
 
 
 def _flip_rate(scene: Scene) -> float:
