@@ -1,6 +1,9 @@
 """A timing speaks of all steps of a cell, however many of them were timed."""
 
 import gc
+import os
+import subprocess
+import sys
 import time
 from typing import ClassVar
 
@@ -64,3 +67,42 @@ def test_nothing_is_collected_inside_the_clock():
     timed(1e-2)
     assert Sleeper.collecting == [False] * 11
     assert gc.isenabled()
+
+
+class Counted(Sleeper):
+    """Notes what it is told beside its steps."""
+
+    def build(self, scene, scheme, dt):
+        self.asked.append(("build", dt))
+
+    def close(self):
+        self.asked.append("close")
+
+
+def test_every_repeat_starts_anew_and_the_engine_is_closed():
+    timing.timed(scenes()["free_symmetric_top[oblate]"], Counted, SCHEME, 1.001e-2)
+    assert Sleeper.asked == [("build", 1e-2), 1000] * 11 + ["close"]
+
+
+class Breaking(Counted):
+    def step(self, n):
+        raise RuntimeError("the solver did not converge")
+
+
+def test_an_engine_that_breaks_is_closed_and_the_collector_runs_again():
+    with pytest.raises(RuntimeError, match="did not converge"):
+        timing.timed(scenes()["free_symmetric_top[oblate]"], Breaking, SCHEME, 1e-2)
+    assert Sleeper.asked[-1] == "close"
+    assert gc.isenabled()
+
+
+def test_the_middle_and_the_least_of_the_repeats():
+    found = timing.Timing(10, 10, (3.0, 1.0, 2.0, 9.0))
+    assert (found.least, found.median, found.as_row()["repeats"]) == (1.0, 2.5, 4)
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_getaffinity"), reason="this system pins no process")
+def test_a_timed_process_stays_on_one_core():
+    code = "import os; from poinsot.adapters.timing import pin; print(pin(), len(os.sched_getaffinity(0)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "True 1\n"
