@@ -13,9 +13,9 @@ from .engine import Engine, Scheme
 REPEATS = 10
 #: How long [s] one repeat steps: long against the clock's grain, short enough to repeat ten times.
 #: A cell that takes longer as a whole is timed over its first steps, and the time scaled to all of them.
-SPAN = 0.05
+SPAN = 0.02
 #: Steps of the run that is not counted, which fills caches and tells how long the others will take.
-WARM_UP = 2000
+WARM_UP = 500
 
 
 @dataclass(frozen=True)
