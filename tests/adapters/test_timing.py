@@ -49,7 +49,7 @@ def timed(dt):
 def test_a_short_cell_is_timed_as_a_whole():
     found = timed(1e-2)
     assert (found.steps, found.timed) == (1000, 1000)
-    assert Sleeper.asked == [1000] * 11
+    assert Sleeper.asked == [timing.WARM_UP] + [1000] * timing.REPEATS
     assert found.least >= 1000 * EACH
 
 
@@ -81,7 +81,8 @@ class Counted(Sleeper):
 
 def test_every_repeat_starts_anew_and_the_engine_is_closed():
     timing.timed(scenes()["free_symmetric_top[oblate]"], Counted, SCHEME, 1.001e-2)
-    assert Sleeper.asked == [("build", 1e-2), 1000] * 11 + ["close"]
+    build = ("build", 1e-2)
+    assert Sleeper.asked == [build, timing.WARM_UP] + [build, 1000] * timing.REPEATS + ["close"]
 
 
 class Breaking(Counted):
