@@ -169,6 +169,16 @@ def test_a_limit_that_is_not_the_truth_fails_behind_any_truncation(ahead, off):
     )
 
 
+@pytest.mark.parametrize(("times", "status"), [(1.9, "pass"), (2.1, "fail")])
+def test_a_limit_is_granted_twice_the_round_off_of_the_worst_step(ahead, times, status):
+    runs = [ahead(SCENE, dt, c=0.0) for dt in STEPS]
+    omega = next(observable for observable in SCENE.observables if observable.name == "omega")
+    noise = max(Cell.of(run, KNOWN).round_off(omega) for run in runs)
+    shift = np.array([times * noise, 0.0, 0.0])
+    verdict = limits(checked([replace(run, omega=run.omega + shift) for run in runs]))["omega"]
+    assert verdict.status.value == status
+
+
 def test_a_limit_says_when_and_how_far_the_finest_step_was(ahead):
     runs = [ahead(SCENE, dt, c=1.0) for dt in STEPS]
     late = [replace(run, position=np.where(run.t[:, None, None] == 6.0, 9.9, run.position)) for run in runs]

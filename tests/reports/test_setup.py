@@ -71,6 +71,7 @@ def test_what_was_inferred_is_said(told):
         ("linear_damping", 1e-9, "linear_damping: the engine has 1e-09, the scene asks for 0.0"),
         ("angular_damping", 0.04, "angular_damping: the engine has 0.04, the scene asks for 0.0"),
         ("velocity_limit", 100.0, "velocity_limit: the engine has 100.0, the scene asks for inf"),
+        ("velocity_limit", 9e5, "velocity_limit: the engine has 900000.0"),
         ("velocity_limit", float("nan"), "velocity_limit"),
         ("velocity_limit", "none", "velocity_limit: the engine has none"),
         ("velocity_limit", [100.0, 200.0], "velocity_limit"),
@@ -103,7 +104,7 @@ def test_no_setting_goes_unread(told, name):
     [
         ("gravity", [0.0, 1e-13, -9.81 * (1 + 1e-15)]),
         ("body/top/mass", 1.0 + 1e-14),
-        ("velocity_limit", 1e9),
+        ("velocity_limit", 1e6),
         ("linear_damping", 1e-14),
     ],
 )

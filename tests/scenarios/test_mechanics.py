@@ -121,3 +121,13 @@ def test_scales_add_what_may_cancel(spinning):
     )
     assert mechanics.momentum(two, opposed)[0] == pytest.approx([0, 0, 0])
     assert mechanics.momentum_scale(two, opposed) == pytest.approx(4.0)
+
+
+def test_scales_are_the_largest_over_time(spinning):
+    made, motion = spinning
+    grown = {name: np.concatenate([(x := getattr(motion, name)), 2 * x, x]) for name in ("velocity", "omega")}
+    kept = {name: np.concatenate([getattr(motion, name)] * 3) for name in ("position", "quaternion")}
+    none = np.empty((3, 0))
+    longer = Trajectory(np.arange(3.0), **grown, **kept, joint_position=none, joint_velocity=none)
+    assert mechanics.momentum_scale(made, longer) == pytest.approx(4.0)
+    assert mechanics.angular_momentum_scale(made, longer) == pytest.approx(2 * (np.sqrt(40) + 10))

@@ -153,6 +153,20 @@ def test_an_invariant_sees_what_it_is_made_of(motion, make, changed, by):
     assert observable.distance(scene(), other, still).min() > 1e-4 * observable.scale(scene(), still), by
 
 
+def test_the_top_about_its_axis_by_hand(motion):
+    omega = motion.omega.copy()
+    omega[:, 0, 2], omega[4, 0, 2] = 4.0, 6.0
+    found = observables.axial_angular_momentum().difference(scene(), replace(motion, omega=omega), motion)
+    start = 0.5 * motion.omega[0, 0, 2]  # I3 of the first body is 0.5
+    assert found[[0, 4], 0] == pytest.approx([2.0 - start, 3.0 - start])
+
+
+def test_the_vertical_component_by_hand(motion):
+    found = observables.vertical_angular_momentum().difference(scene(), motion, motion)
+    whole = observables.angular_momentum().difference(scene(), motion, motion)
+    assert np.array_equal(found[:, 0], whole[:, 2])
+
+
 def test_the_norm_of_every_body_counts(motion):
     quaternion = motion.quaternion.copy()
     quaternion[7, 1] *= 1 + 1e-9

@@ -122,6 +122,12 @@ def test_a_step_is_rounded_to_whole_steps_between_samples(dt, steps, whole):
     assert scene().whole_step(dt) == whole
 
 
+def test_a_step_that_fits_but_for_rounding_stays_as_it_was_asked_for():
+    made = scene(duration=0.6, samples=6)
+    assert made.duration / made.samples / 5 != 0.02
+    assert made.whole_step(0.02) == 0.02
+
+
 @given(st.floats(1e-7, 1.0))
 def test_a_rounded_step_divides_a_sample_and_stays(dt):
     whole = scene().whole_step(dt)
