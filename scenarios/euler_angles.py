@@ -18,8 +18,8 @@ from .trajectory import Trajectory, about_fixed_point
 
 #: Mass [kg], moments [kg m²], how far below the hinges the body hangs where it does [m], g [m/s²].
 MASS, ASYMMETRIC, SYMMETRIC, HUNG, G = 1.5, (0.012, 0.02, 0.016), (0.016, 0.016, 0.01), 0.02, 9.81
-#: When β = 0 is crossed [s], and how fast [rad/s]: a third of a half step away from every step and half step of
-#: the ladders. The mass matrix divides rounding by β²: a scheme that looked at β = 0 itself would be lost.
+#: When β = 0 is crossed [s], and how fast [rad/s]: a third of a half step away from every step and half step
+#: of the ladders. The mass matrix divides rounding by β²: a scheme that looked at β = 0 itself would be lost.
 CROSSING, SPEED = 0.6 + 0.008 / 3, 3.4
 #: Largest time [s] over which the truth follows its angles: near β = 0 they run fast.
 FINE = 5e-4
