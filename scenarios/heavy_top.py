@@ -4,12 +4,12 @@ from functools import cache
 
 import numpy as np
 
-from ..reference import heavy_top, heavy_top_rates
+from ..reference import heavy_top_rates
 from ..reference.checked import Array
-from . import observables, pictures
-from .body import Body, Joint, Vector, diagonal
-from .scene import Scene
-from .trajectory import Trajectory, about_fixed_point
+from . import observables, pictures, pivoted_top
+from .body import Vector
+from .scene import Scene, every_scheme
+from .trajectory import Trajectory
 
 #: Mass [kg], distance of the centre of mass [m], moments about the fixed point [kg m²], g [m/s²].
 MASS, LENGTH, I1, I3, G = 1.0, 0.05, 0.0065, 0.0075, 9.81
@@ -17,66 +17,43 @@ TILTED = (0.28, 0.0, 0.0, 0.96)
 
 
 Ladders = dict[int | str, tuple[float, ...]]
-Arguments = tuple[float, float, tuple[float, float], float, tuple[float, ...], tuple[float, ...]]
-
-
-def _arguments(scene: Scene) -> Arguments:
-    """Mass, length, moments about the fixed point, gravity, attitude and ω: what the reference asks for."""
-    body = scene.bodies[0]
-    length = body.center_of_mass[2]
-    moments = (body.inertia[0][0] + body.mass * length**2, body.inertia[2][2])
-    return body.mass, length, moments, -scene.gravity[2], scene.q0, scene.v0
-
-
-def _truth(scene: Scene, t: Array) -> Trajectory:
-    q, omega = heavy_top.motion(*_arguments(scene), t)
-    return about_fixed_point(t, np.array(scene.bodies[0].center_of_mass), q, omega)
-
-
-def _horizontal(scene: Scene, motion: Trajectory) -> Array:
-    """The axis seen from above, as a complex number: its phase is the azimuth."""
-    x, y, _ = motion.position[:, 0].T
-    return np.asarray(x + 1j * y)
 
 
 @cache
 def _mean_precession(scene: Scene) -> float:
-    return heavy_top_rates.mean_precession(*_arguments(scene))
+    return heavy_top_rates.mean_precession(*pivoted_top.arguments(scene))
 
 
 @cache
 def _nutation_frequency(scene: Scene) -> float:
-    return 2 * np.pi / heavy_top_rates.nutation_period(*_arguments(scene))
+    return 2 * np.pi / heavy_top_rates.nutation_period(*pivoted_top.arguments(scene))
 
 
 def _nutating(scene: Scene, motion: Trajectory) -> Array:
     """Height about its mean, and its speed over the nutation frequency: a circle, if a dented one."""
     length = scene.bodies[0].center_of_mass[2]
-    lowest, highest, *_ = heavy_top_rates.turning_points(*_arguments(scene))
+    lowest, highest, *_ = heavy_top_rates.turning_points(*pivoted_top.arguments(scene))
     height = motion.position[:, 0, 2] - length * (lowest + highest) / 2
     return np.asarray(height - 1j * motion.velocity[:, 0, 2] / _nutation_frequency(scene))
 
 
 def _top(variant: str, summary: str, omega0: Vector, samples: int, ladders: Ladders) -> Scene:
-    about_center = diagonal(I1 - MASS * LENGTH**2, I1 - MASS * LENGTH**2, I3)
     return Scene(
         name="heavy_top",
         variant=variant,
         summary=f"A symmetric top on a fixed point, {summary}.",
         source="Landau & Lifshitz, Mechanics, § 35 problem 1; Goldstein, Classical Mechanics, ch. 5.7",
-        bodies=(
-            Body("top", MASS, about_center, (Joint("pivot", "ball"),), center_of_mass=(0.0, 0.0, LENGTH)),
-        ),
+        bodies=(pivoted_top.top(MASS, LENGTH, I1, I3),),
         gravity=(0.0, 0.0, -G),
         q0=TILTED,
         v0=omega0,
         duration=2.0,
         samples=samples,
-        truth=_truth,
+        truth=pivoted_top.truth,
         observables=(
             observables.orientation(),
             observables.omega(),
-            observables.rate("precession", _horizontal, _mean_precession),
+            observables.rate("precession", pivoted_top.from_above, _mean_precession),
             observables.rate("nutation", _nutating, _nutation_frequency),
             observables.energy(),
             observables.vertical_angular_momentum(),
@@ -85,7 +62,7 @@ def _top(variant: str, summary: str, omega0: Vector, samples: int, ladders: Ladd
         ),
         pictures=(pictures.tip("Tip of the top"),),
         ladders=ladders,
-        errors=ERRORS[variant],
+        errors=every_scheme(ERRORS[variant], like="semi-implicit Euler"),
     )
 
 
@@ -107,10 +84,6 @@ ERRORS: dict[str, dict[str, tuple[float, ...]]] = {
         "RKMK4": (420.0, 2200.0, 280.0, 140.0, 14.0, 2.2, 0.0, 0.0),
     },
 }
-for row in ERRORS.values():
-    # With a ball joint these two of MuJoCo's schemes are its Euler, bit for bit.
-    row["implicitfast"] = row["discrete"] = row["semi-implicit Euler"]
-
 SLOW: Ladders = {1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)}
 FAST: Ladders = {1: (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5), 4: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)}
 
