@@ -96,7 +96,7 @@ def _isolated(
             yield origin[future], _result(future, time_limit)
     finally:
         # Whoever stops asking, by an interrupt for one, wants nothing of what is still under way.
-        pool.stop()
+        pool.stop()  # type: ignore[no-untyped-call]
         pool.join()
 
 

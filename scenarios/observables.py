@@ -186,7 +186,7 @@ def attitude() -> Observable:
 
 
 def turning() -> Observable:
-    """Angular velocity of bodies that cannot turn; round-off is measured against one turn in the whole run."""
+    """Angular velocity of bodies that cannot turn; its round-off is that of one turn in the whole run."""
     return invariant(
         "turning", "rad/s", lambda scene, a: a.omega, lambda scene, b: 2 * np.pi / scene.duration
     )
