@@ -124,9 +124,10 @@ def test_a_run_that_is_not_the_whole_scene_is_refused(runs, part, says):
         judge([cut])
 
 
-def test_samples_at_other_times_are_refused(runs):
+@pytest.mark.parametrize("shift", [1e-6, -1e-6])
+def test_samples_at_other_times_are_refused(runs, shift):
     t = runs[0].t.copy()
-    t[77] += 1e-6
+    t[77] += shift
     with pytest.raises(InputError, match="got 251 samples up to 10 s, expected 251, evenly"):
         judge([replace(runs[0], t=t)])
 

@@ -103,6 +103,7 @@ def test_no_setting_goes_unread(told, name):
     ("name", "value"),
     [
         ("gravity", [0.0, 1e-13, -9.81 * (1 + 1e-15)]),
+        ("gravity", [0.0, 0.0, -9.81 + 5e-12]),  # relative to its size
         ("body/top/mass", 1.0 + 1e-14),
         ("velocity_limit", 1e6),
         ("linear_damping", 1e-14),

@@ -111,6 +111,14 @@ def test_a_rate_is_measured_against_its_size():
     assert (ROUND.scale(scene(), None), ROUND.unit, ROUND.kind) == (7.0, "rad/s", "rate")
 
 
+def test_a_fitted_number_is_how_much_larger_it_is():
+    mean = observables.fitted("mean", "m", lambda scene, m: m.omega[:, 0, 2].mean(), lambda scene: -5.0)
+    t = np.linspace(0.0, 1.0, 11)
+    less = replace(circling(t, 1.0), omega=circling(t, 1.0).omega * 0.8)
+    assert mean.difference(scene(), less, circling(t, 1.0)) == pytest.approx(np.array([[-1.0]]))
+    assert (mean.scale(scene(), None), mean.unit, mean.kind) == (5.0, "m", "rate")
+
+
 INVARIANTS = (
     observables.energy, observables.angular_momentum, observables.vertical_angular_momentum,
     observables.axial_angular_momentum, observables.momentum, observables.unit_norm, observables.attitude,

@@ -49,6 +49,7 @@ def scene(**changes):
             {"q0": (0.1, 0.0, 0.0, 0.6, 0.9, 0.2)},
             "q0 of joint 'ball': got [0.0, 0.0, 0.6, 0.9], expected a unit",
         ),
+        ({"q0": (0.1, 0.0, 0.0, 0.6, 0.8 + 1e-8, 0.2)}, "expected a unit quaternion"),
         ({"errors": {"RKMK4": (1.0,)}}, "errors of 'RKMK4': got 1 constants, expected one for each of 2"),
         ({"bodies": ()}, "bodies: got the names []"),
     ],
