@@ -9,7 +9,6 @@ Indust. Appl. Math.* 35 (2018) 1007, for one matrix, with T added.
 
 import numpy as np
 import numpy.typing as npt
-import scipy
 
 from .checked import Array, finite
 from .errors import InputError
@@ -25,6 +24,8 @@ def eigenpairs(T: Array, V: Array) -> tuple[Long, Long]:
     A λ that rounding the entries of V could have made is 0. Of each column of A, the first entry above
     half its largest is positive. Raises InputError if T is not positive definite.
     """
+    import scipy.linalg  # scenes are listed without it
+
     # Powers of two scale exactly, so matrices that are singular in double stay so.
     scale = np.exp2(np.round(-np.log2(np.diagonal(T)) / 2))
     masses, stiffness = (scale[:, None] * matrix * scale for matrix in (T, V))

@@ -46,6 +46,13 @@ def matrix(q: Array) -> Array:
     return np.stack(columns, axis=-1)
 
 
+def from_matrix(turned: Array) -> Array:
+    """The turn (..., 4) whose body axes are the columns of ``turned`` (..., 3, 3), in world axes."""
+    from scipy.spatial.transform import Rotation  # costs more to load than all of this file's callers
+
+    return np.asarray(Rotation.from_matrix(turned).as_quat())
+
+
 def from_rotation_vector(vector: Array) -> Array:
     """The turn (..., 4) about ``vector`` (..., 3) by its length [rad]."""
     half = 0.5 * np.linalg.norm(vector, axis=-1, keepdims=True)

@@ -26,7 +26,7 @@ from .double_double import Pair, two_sum
 from .precise import DIGITS, mp
 
 #: A term this small beside the first is left out of a case's scalars [1].
-_BEYOND_DIGITS = mp.mpf(10) ** (-DIGITS - 5)
+_BEYOND_DIGITS = 10.0 ** (-DIGITS - 5)
 
 #: A term this small beside the first is left out where times are in double [1].
 _NEGLIGIBLE = 1e-19

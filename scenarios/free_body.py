@@ -1,11 +1,9 @@
 """One rigid body that nothing acts on: its exact motion, whatever its tensor and wherever its centre."""
 
 import numpy as np
-import scipy
 
-from ..reference import quaternions, torque_free
+from ..reference import inertia, quaternions, torque_free
 from ..reference.checked import Array
-from ..reference.inertia import principal
 from .scene import Scene
 from .trajectory import Trajectory, of_one_body
 
@@ -21,15 +19,15 @@ def truth(scene: Scene, t: Array) -> Trajectory:
     return of_one_body(t, position, q, np.broadcast_to(velocity, position.shape), omega)
 
 
-def turning(inertia: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:
+def turning(tensor: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:
     """Attitude (n, 4) and ω (n, 3) in body axes [rad/s] of a body that no torque acts on.
 
-    ``inertia`` (3, 3) [kg m²] about the point that it turns about, in body axes, need not be diagonal.
+    ``tensor`` (3, 3) [kg m²]: inertia about the fixed point or centre, in body axes, diagonal or not.
     """
-    if np.array_equal(inertia, np.diag(np.diag(inertia))):
-        return torque_free.motion(np.diag(inertia), q0, omega0, t)
-    moments, axes = principal(inertia)
-    turn = np.asarray(scipy.spatial.transform.Rotation.from_matrix(axes).as_quat())
+    if np.array_equal(tensor, np.diag(np.diag(tensor))):
+        return torque_free.motion(np.diag(tensor), q0, omega0, t)
+    moments, axes = inertia.principal(tensor)
+    turn = quaternions.from_matrix(axes)
     back = quaternions.conjugate(turn)
     q, omega = torque_free.motion(
         moments, quaternions.product(q0, turn), quaternions.rotated(back, omega0), t

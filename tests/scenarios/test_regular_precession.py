@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from poinsot.reference import heavy_top_rates, quaternions
+from poinsot.reference import heavy_top, heavy_top_rates, quaternions
 from poinsot.scenarios import pivoted_top, regular_precession
 from poinsot.scenarios.registry import scenes
 
@@ -61,3 +61,9 @@ def test_an_engine_that_goes_by_the_rule_of_thumb(failed, name):
     assert {("truth", "precession"), ("order", "orientation"), ("truth", "omega")} <= found
     # What it does looks steady enough.
     assert not {("invariant", "tilt"), ("invariant", "p_gamma")} & found
+
+
+def test_its_rates_are_those_of_regular_precession():
+    own = regular_precession
+    top = own.MASS, own.LENGTH, (own.I1, own.I3), own.G, own.ANGLES[1], own.OMEGA3
+    assert tuple(own.RATES.values()) == pytest.approx(heavy_top.regular_precession(*top), rel=1e-15)
