@@ -36,6 +36,10 @@ class Timing:
         """The middle repeat."""
         return statistics.median(self.seconds)
 
+    def of(self, steps: int) -> "Timing":
+        """The time of so many steps, taken on these."""
+        return Timing(steps, self.timed, tuple(s * (steps / self.steps) for s in self.seconds))
+
     def as_row(self) -> dict[str, float | int]:
         """The part of a work-precision row that speaks of time."""
         return {

@@ -31,6 +31,8 @@ def run(
     workers: int | None = None,
     time_limit: float = 300.0,
     timing: bool = True,
+    quick: Annotated[bool, Parameter(negative="")] = False,
+    full: Annotated[bool, Parameter(negative="")] = False,
 ) -> int:
     """Run scenes in engines, log and judge them, and write a report.
 
@@ -53,11 +55,16 @@ def run(
         Longest time [s] that one cell may take.
     timing
         Whether to time the engines after they have been simulated.
+    quick
+        Each scene at its own step alone: no ladders of steps, so no orders.
+    full
+        Ladders of steps of every variant, and every step timed. Scenes that are named are run so
+        anyway; else a ladder is run of the first variant of each scene.
     """
     from .adapters.runner import cores
     from .main_job import output_folder
     from .main_job import run as run_all
-    from .plan import plan
+    from .plan import Extent, plan
     from .progress import bar
     from .reports.results import exit_code
     from .scenarios.registry import select
@@ -66,7 +73,10 @@ def run(
         raise InputError(f"--workers: got {workers}, expected at least 1")
     if not time_limit > 0:
         raise InputError(f"--time-limit: got {time_limit}, expected a number of seconds above 0")
-    laid = plan(select(list(scene)), engine or [], scheme or [], dt or [])
+    if quick and full:
+        raise InputError("--quick, --full: got both, expected one of them or none")
+    extent = Extent.QUICK if quick else Extent.FULL if full or scene else Extent.USUAL
+    laid = plan(select(list(scene)), engine or [], scheme or [], dt or [], extent)
     folder = output_folder(out)
     command = shlex.join(["poinsot", *_arguments()])
     with bar() as progress:

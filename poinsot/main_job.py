@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from math import log2
 from pathlib import Path
 from time import perf_counter
 from typing import Any, Protocol
@@ -11,9 +12,9 @@ from .adapters import log, runner
 from .adapters.environment import environment
 from .adapters.runner import Request
 from .adapters.timing import Timing
-from .plan import Plan
+from .plan import Extent, Plan
 from .reference.errors import InputError
-from .reports import deviations, results, truth
+from .reports import deviations, order, results, truth
 from .reports.cell import Cell
 from .reports.judge import judge
 from .reports.results import CellRecord, Key
@@ -95,7 +96,11 @@ def report(
     cells = [Cell.of(motion, known) for motion in motions.values()]
     silent = [_unjudged(cell, missing) for cell in cells if (missing := truth.without_constant(cell))]
     verdicts = judge(motions.values())
-    stale = deviations.unmatched(verdicts, deviations.recorded()) if facts.get("whole") else []
+    stale = (
+        deviations.unmatched(verdicts, deviations.recorded(), order.partly(cells))
+        if facts.get("whole")
+        else []
+    )
     found = results.results(
         records,
         verdicts,
@@ -166,12 +171,16 @@ def _with_outcome(record: CellRecord, laid: Plan, outcomes: Mapping[Request, run
 def _timed(
     laid: Plan, records: Sequence[CellRecord], time_limit: float, progress: Progress
 ) -> dict[Key, Timing | str]:
-    """Time the cells that ran, of one variant of each scene: variants differ only in where they start."""
+    """Time cells that ran, of one variant of each scene: variants differ only in where they start.
+
+    Unless the run is a full one, one step of each scheme is timed, and the others take its time a step.
+    """
     first: dict[str, str] = {}
     for record in records:
         first.setdefault(all_scenes()[record.scene].name, record.scene)
     sound = [record for record in records if record.log and record.scene in first.values()]
-    requests = {laid.requests[record.key]: record.key for record in sound}
+    chosen = sound if laid.extent is Extent.FULL else [r for r in sound if _own_step(r, sound)]
+    requests = {laid.requests[record.key]: record.key for record in chosen}
     done = 0
 
     def count(request: Request) -> None:
@@ -179,10 +188,20 @@ def _timed(
         done += 1
         progress("timing", done, len(requests))
 
-    return {
+    timings = {
         requests[request]: timing
         for request, timing in runner.time(list(requests), time_limit, count).items()
     }
+    by_scheme = {key[:3]: timing for key, timing in timings.items() if isinstance(timing, Timing)}
+    scaled = {r.key: by_scheme[r.key[:3]].of(r.steps) for r in sound if r.key[:3] in by_scheme}
+    return scaled | timings
+
+
+def _own_step(record: CellRecord, records: Sequence[CellRecord]) -> bool:
+    """Whether this is the cell of its scheme whose step is nearest to the scene's own."""
+    dt = all_scenes()[record.scene].dt
+    ladder = [other.dt for other in records if other.key[:3] == record.key[:3]]
+    return record.dt == min(ladder, key=lambda step: abs(log2(step / dt)))
 
 
 def _read(folder: Path, record: CellRecord) -> Trajectory:

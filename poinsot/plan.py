@@ -1,7 +1,9 @@
 """Which cells a run consists of, and which it must leave out, with the reason."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from enum import Enum
+from math import log
 
 from .adapters import registry
 from .adapters.engine import Engine, Scheme
@@ -14,8 +16,16 @@ from .reports.verdict import Status
 from .scenarios.registry import scenes as all_scenes
 from .scenarios.scene import Scene
 
-#: How often a cell at the scene's own step is run, so that its determinism can be judged.
+#: How often the cell nearest to the scene's own step is run, so that its determinism can be judged.
 REPEATS = 2
+
+
+class Extent(Enum):
+    """How much of every scene a run takes in: its own step in each variant, and ladders of steps."""
+
+    QUICK = "no ladder: orders, limits and the error over the step are left out"
+    USUAL = "ladders of the first variant of each scene; `--full` takes those of all variants"
+    FULL = "everything"
 
 
 @dataclass
@@ -27,18 +37,25 @@ class Plan:
     notes: list[str] = field(default_factory=list)
     #: Whether nothing is missing, scene, engine, scheme or step: every record must then find its check.
     whole: bool = False
+    extent: Extent = Extent.FULL
 
 
 def plan(
-    scenes: Sequence[Scene], engines: Sequence[str], schemes: Sequence[str], steps: Sequence[float]
+    scenes: Sequence[Scene],
+    engines: Sequence[str],
+    schemes: Sequence[str],
+    steps: Sequence[float],
+    extent: Extent = Extent.FULL,
 ) -> Plan:
     """Lay out scenes × engines × schemes × steps.
 
-    No engines means all that Poinsot knows, no schemes all of theirs, no steps each scheme's ladder
-    and the scene's own step. Raises ``InputError`` for a scheme that no engine has and for a step
-    that cannot be, ``UnavailableError`` for an engine that was named and is not installed.
+    No engines means all that Poinsot knows, no schemes all of theirs, no steps the scene's own step and,
+    as far as the ``extent`` goes, each scheme's ladder. Raises ``InputError`` for a scheme that no
+    engine has and for a step that cannot be, ``UnavailableError`` for an engine that was named and is
+    not installed.
     """
-    found, laid = _engines(engines), Plan()
+    found, laid = _engines(engines), Plan(extent=extent)
+    first = {scene.name: scene.full_name for scene in reversed(scenes)}
     loaded = {spec: engine for spec, engine in found.items() if not isinstance(engine, str)}
     _check_schemes(schemes, loaded)
     for scene in scenes:
@@ -48,11 +65,13 @@ def plan(
                 continue
             for scheme in engine.schemes:
                 if not schemes or scheme.name in schemes:
-                    _add(laid, scene, spec, engine, scheme, steps)
+                    _add(laid, scene, spec, engine, scheme, steps or _wanted(scene, scheme, extent, first))
     everything = len(scenes) == len(all_scenes()) and len(loaded) == len(registry.names())
     laid.whole = everything and not (schemes or steps)
     if steps:
         laid.notes.append("Only the steps asked for were run; order needs a ladder of at least five.")
+    elif extent is not Extent.FULL:
+        laid.notes.append(f"This is a {extent.name.lower()} run: {extent.value}.")
     return laid
 
 
@@ -85,12 +104,14 @@ def _add(
             )
         )
         return
-    for asked, dt in _steps(scene, scheme, steps):
+    taken = list(_steps(scene, steps))
+    own = min((dt for _, dt in taken), key=lambda dt: abs(log(dt / scene.dt)))
+    for asked, dt in taken:
         if dt != asked:
             laid.notes.append(
                 f"{scene.full_name}: dt {asked:g} s rounded to {dt:g} s, whole steps between samples."
             )
-        repeats = REPEATS if steps or dt == scene.whole_step(scene.dt) else 1
+        repeats = REPEATS if dt == own else 1
         record = CellRecord(
             scene=scene.full_name,
             engine=engine.name,
@@ -106,11 +127,15 @@ def _add(
         laid.requests[record.key] = Request(scene.full_name, spec, scheme.name, dt, repeats)
 
 
-def _steps(scene: Scene, scheme: Scheme, steps: Sequence[float]) -> Iterator[tuple[float, float]]:
+def _wanted(scene: Scene, scheme: Scheme, extent: Extent, first: Mapping[str, str]) -> tuple[float, ...]:
+    """Steps [s] of one scheme in one scene where none was asked for."""
+    has_ladder = extent is Extent.FULL or (extent is Extent.USUAL and first[scene.name] == scene.full_name)
+    return (*scene.ladder(scheme.order, scheme.twin), scene.dt) if has_ladder else (scene.dt,)
+
+
+def _steps(scene: Scene, steps: Sequence[float]) -> Iterator[tuple[float, float]]:
     """Each step asked for with the one it is rounded to, from the coarsest, none twice."""
-    asked = {
-        scene.whole_step(dt): dt for dt in (steps or (*scene.ladder(scheme.order, scheme.twin), scene.dt))
-    }
+    asked = {scene.whole_step(dt): dt for dt in steps}
     for dt in sorted(asked, reverse=True):
         yield asked[dt], dt
 

@@ -1,7 +1,7 @@
 """Known deviations: what an engine is recorded to do wrong, how far, in which versions, and why."""
 
 import tomllib
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from fnmatch import fnmatchcase
 from importlib import resources
@@ -10,7 +10,7 @@ from typing import Any
 from packaging.specifiers import InvalidSpecifier, SpecifierSet
 
 from ..reference.errors import InputError
-from .verdict import CHECKS, Status, Verdict
+from .verdict import CHECKS, Ladder, Status, Verdict, ladder_of
 
 FILE = "known_deviations.toml"
 
@@ -37,13 +37,19 @@ class Deviation:
     def applies(self, verdict: Verdict) -> bool:
         """Whether this entry speaks of that check on that cell."""
         return (
-            verdict.engine == self.engine
-            and verdict.check == self.check
+            verdict.check == self.check
             and verdict.dt <= self.dt
-            and _like(verdict.scene, self.scene)
-            and _like(verdict.scheme, self.scheme)
             and _like(verdict.observable, self.observable)
-            and SpecifierSet(self.versions).contains(verdict.engine_version, prereleases=True)
+            and self.speaks_of(*ladder_of(verdict))
+        )
+
+    def speaks_of(self, scene: str, engine: str, version: str, scheme: str) -> bool:
+        """Whether this entry speaks of that scheme in that scene."""
+        return (
+            engine == self.engine
+            and _like(scene, self.scene)
+            and _like(scheme, self.scheme)
+            and SpecifierSet(self.versions).contains(version, prereleases=True)
         )
 
 
@@ -59,29 +65,39 @@ def parsed(text: str) -> tuple[Deviation, ...]:
     return tuple(_entry(number, entry) for number, entry in enumerate(entries, start=1))
 
 
-def applied(verdicts: Sequence[Verdict], deviations: Iterable[Deviation]) -> list[Verdict]:
+def applied(
+    verdicts: Sequence[Verdict], deviations: Iterable[Deviation], partly: Collection[Ladder] = ()
+) -> list[Verdict]:
     """The verdicts with recorded deviations taken into account.
 
     A failure inside its bound is ``known``; one outside stays a failure and says by how much the
-    record is exceeded. Where an entry applies and nothing of it is left, its verdicts are ``fixed``.
+    record is exceeded. Where an entry applies and nothing of it is left, its verdicts are ``fixed``;
+    but of a ladder that was run ``partly`` the rest may still deviate.
     """
     found = list(verdicts)
     for deviation in deviations:
         places = [place for place, verdict in enumerate(verdicts) if deviation.applies(verdict)]
-        gone = all(verdicts[place].status is Status.PASS for place in places)
+        gone = all(
+            verdicts[place].status is Status.PASS and ladder_of(verdicts[place]) not in partly
+            for place in places
+        )
         for place in places:
             found[place] = _marked(verdicts[place], deviation, gone)
     return found
 
 
-def unmatched(verdicts: Iterable[Verdict], deviations: Iterable[Deviation]) -> list[str]:
-    """A sentence for every entry that speaks of no check that was made."""
+def unmatched(
+    verdicts: Iterable[Verdict], deviations: Iterable[Deviation], partly: Collection[Ladder] = ()
+) -> list[str]:
+    """A sentence for every entry that speaks of no check that was made, nor of a ladder run ``partly``."""
     made = list(verdicts)
     return [
         f"known deviation of {d.engine} {d.scheme} in {d.scene}: {d.check} of {d.observable} is no check "
         "that was made; remove or mend its record"
         for d in deviations
-        if any(verdict.engine == d.engine for verdict in made) and not any(d.applies(v) for v in made)
+        if any(verdict.engine == d.engine for verdict in made)
+        and not any(d.applies(v) for v in made)
+        and not any(d.speaks_of(*ladder) for ladder in partly)
     ]
 
 

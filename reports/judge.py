@@ -9,7 +9,7 @@ from ..scenarios.trajectory import Provenance, Trajectory
 from . import deviations, order, setup, truth, twin
 from .cell import Cell
 from .deviations import Deviation
-from .verdict import Status, Verdict
+from .verdict import Status, Verdict, ladder_of
 
 
 def judge(
@@ -29,13 +29,14 @@ def judge(
     broken = [verdict for cell in cells for verdict in _finite(cell)]
     sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
     alone = [v for cell in sound for v in (*truth.check(cell), *setup.check(cell), *setup.determinism(cell))]
-    ladders = [v for group in _grouped(sound, twin.scheme_of) for v in order.check(group)]
+    ladders = [v for group in _grouped(sound, ladder_of) for v in order.check(group)]
     on_record = tuple(deviations.recorded() if known is None else known)
-    first = deviations.applied([*broken, *alone, *ladders], on_record)
-    suspects = {twin.scheme_of(verdict) for verdict in first if verdict.status is not Status.PASS}
+    partly = order.partly(cells)
+    first = deviations.applied([*broken, *alone, *ladders], on_record, partly)
+    suspects = {ladder_of(verdict) for verdict in first if verdict.status is not Status.PASS}
     twins = _grouped([c for c in sound if c.provenance.twin], lambda p: (p.scene, p.dt, p.twin))
     second = [v for group in twins for v in twin.check(group, suspects, on_record)]
-    return [*first, *deviations.applied(second, on_record)]
+    return [*first, *deviations.applied(second, on_record, partly)]
 
 
 def _finite(cell: Cell) -> list[Verdict]:

@@ -1,6 +1,7 @@
 """Order of convergence over a ladder of steps, and the limit at which the ladder arrives."""
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,7 +10,7 @@ from ..reference.checked import Array
 from ..scenarios.observables import Observable
 from . import truth
 from .cell import Cell
-from .verdict import Status, Verdict
+from .verdict import Ladder, Status, Verdict, ladder_of
 
 #: Fewest steps that make a ladder.
 STEPS = 5
@@ -37,6 +38,17 @@ def check(ladder: Sequence[Cell]) -> list[Verdict]:
         return []
     states = [o for o in cells[0].scene.observables if o.kind == "state"]
     return [verdict for o in states for verdict in (_order(cells, o), _limit(cells, o))]
+
+
+def partly(cells: Iterable[Cell]) -> set[Ladder]:
+    """Those of which some step is missing: of the scheme's ladder, or the scene's own."""
+    there: dict[Ladder, set[float]] = defaultdict(set)
+    asked: dict[Ladder, set[float]] = {}
+    for cell in cells:
+        scene, p = cell.scene, cell.provenance
+        there[ladder_of(p)].add(p.dt)
+        asked[ladder_of(p)] = {scene.whole_step(dt) for dt in (*scene.ladder(p.order, p.twin), scene.dt)}
+    return {ladder for ladder in there if asked[ladder] - there[ladder]}
 
 
 def fit(dts: Array, errors: Array) -> Fit:

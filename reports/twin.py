@@ -6,25 +6,15 @@ import numpy as np
 
 from ..reference.checked import Array
 from ..scenarios.observables import Observable
-from ..scenarios.trajectory import Provenance
 from .cell import Cell
 from .deviations import Deviation
 from .growth import growth
-from .verdict import Status, Verdict
+from .verdict import Ladder, Status, Verdict, ladder_of
 
 #: Round-off that twins may differ by, relative to the state's size, and its growth with a kick's.
 BASE, PER_GROWTH = 1e-12, 1e-13
 #: Above this growth of a kick, rounding alone separates twins: there is nothing to check.
 CHAOTIC = 1e6
-
-
-#: Scene, engine, its version and scheme: what is right or wrong as a whole, whatever the step.
-Ladder = tuple[str, str, str, str]
-
-
-def scheme_of(source: Provenance | Verdict) -> Ladder:
-    """The scene, engine, version and scheme of a cell or of a verdict on it."""
-    return (source.scene, source.engine, source.engine_version, source.scheme)
 
 
 def check(
@@ -50,9 +40,9 @@ def check(
 def _held_against(cell: Cell, twins: Sequence[Cell], suspects: Collection[Ladder]) -> list[Cell]:
     """The cells of other engines, and of those only the sound ones unless the cell is suspect itself."""
     others = [twin for twin in twins if twin.provenance.engine != cell.provenance.engine]
-    if scheme_of(cell.provenance) in suspects:
+    if ladder_of(cell.provenance) in suspects:
         return others
-    return [twin for twin in others if scheme_of(twin.provenance) not in suspects]
+    return [twin for twin in others if ladder_of(twin.provenance) not in suspects]
 
 
 def _judged(cell: Cell, others: Sequence[Cell], allowed: float, known: Iterable[Deviation]) -> Verdict:

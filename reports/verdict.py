@@ -3,6 +3,11 @@
 from dataclasses import dataclass
 from enum import Enum
 
+from ..scenarios.trajectory import Provenance
+
+#: Scene, engine, its version and scheme: what is right or wrong as a whole, whatever the step.
+Ladder = tuple[str, str, str, str]
+
 #: The kinds of check there are.
 CHECKS = (
     "truth",
@@ -71,3 +76,8 @@ class Verdict:
     unit: str
     at: float | None
     message: str
+
+
+def ladder_of(source: Provenance | Verdict) -> Ladder:
+    """The scene, engine, version and scheme of a cell or of a verdict on it."""
+    return (source.scene, source.engine, source.engine_version, source.scheme)

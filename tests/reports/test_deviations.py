@@ -8,7 +8,7 @@ from poinsot.adapters.declared import declared
 from poinsot.reference.errors import InputError
 from poinsot.reports import deviations
 from poinsot.reports.deviations import Deviation
-from poinsot.reports.verdict import Status, Verdict
+from poinsot.reports.verdict import Status, Verdict, ladder_of
 from poinsot.scenarios.registry import scenes
 
 ENTRY = Deviation(
@@ -158,3 +158,11 @@ def test_the_entries_that_ship_speak_of_what_there_is():
         assert len(entry.reason) > 40
         assert entry.versions.startswith("==")  # measured in one version, and known of no other
         assert 0 < entry.bound < 1e-3
+
+
+def test_of_a_ladder_run_in_part_nothing_is_taken_for_gone_or_unmatched():
+    partly = {ladder_of(PASSED)}
+    assert deviations.applied([PASSED], [ENTRY], partly) == [PASSED]
+    assert deviations.unmatched([PASSED], [replace(ENTRY, observable="spin")], partly) == []
+    other = {ladder_of(replace(PASSED, scene="heavy_top[moderate]"))}
+    assert deviations.applied([PASSED], [ENTRY], other)[0].status is Status.FIXED

@@ -10,7 +10,7 @@ from poinsot.reports.cell import Cell
 from poinsot.reports.deviations import Deviation
 from poinsot.reports.growth import growth
 from poinsot.reports.judge import judge
-from poinsot.reports.verdict import Status
+from poinsot.reports.verdict import Status, ladder_of
 from poinsot.scenarios import observables
 from poinsot.scenarios.body import Body, Joint, diagonal
 from poinsot.scenarios.registry import scenes
@@ -100,7 +100,7 @@ def test_schemes_without_a_twin_name_are_no_twins(run):
 
 
 def test_a_suspect_is_not_held_against_the_others(run):
-    suspects = {twin.scheme_of(run("beta").provenance)}
+    suspects = {ladder_of(run("beta").provenance)}
     found = checked(run("alpha"), run("beta", 1e-9), suspects=suspects)
     assert found["alpha"].status is Status.PASS
     assert (

@@ -1,0 +1,32 @@
+"""What a quick, a usual and a full run take in."""
+
+from collections import Counter
+
+import pytest
+from poinsot.scenarios.registry import select
+
+from poinsot.plan import Extent, plan
+
+LADDER, ALONE = "free_symmetric_top[oblate]", "free_symmetric_top[prolate]"
+
+
+def cells(extent, names=("free_symmetric_top",)):
+    laid = plan(select(list(names)), ["pinocchio"], ["semi-implicit Euler"], [], extent)
+    return Counter(record.scene for record in laid.records), laid
+
+
+@pytest.mark.parametrize(
+    ("extent", "first", "second"), [(Extent.QUICK, 1, 1), (Extent.USUAL, 5, 1), (Extent.FULL, 5, 5)]
+)
+def test_how_many_steps_the_variants_of_a_scene_are_run_at(extent, first, second):
+    counted, laid = cells(extent)
+    assert counted == {LADDER: first, ALONE: second}
+    assert any(f"a {extent.name.lower()} run" in note for note in laid.notes) == (extent is not Extent.FULL)
+
+
+@pytest.mark.parametrize("extent", Extent)
+def test_one_cell_of_each_scheme_is_run_twice_for_its_determinism(extent):
+    _, laid = cells(extent)
+    twice = [request for request in laid.requests.values() if request.repeats == 2]
+    assert Counter(request.scene for request in twice) == {LADDER: 1, ALONE: 1}
+    assert {request.dt for request in twice} == {1e-3}
