@@ -12,6 +12,7 @@ from markupsafe import Markup, escape
 from plotly.offline.offline import get_plotlyjs
 
 from ..scenarios.scene import FEATURES
+from .cheapest import cheapest
 from .digest import Column, Digest, Group, Record
 from .findings import findings
 from .plots import Motion, cost_figure, motion_figures
@@ -38,6 +39,7 @@ def render(results: Record, motions: Iterable[Motion], out: Path) -> None:
             ],
             pictures=pictures,
             costs=_costs(digest),
+            cheapest=_cheapest(digest),
             settings=_settings(digest),
             plotly=_library(),
         )
@@ -94,6 +96,16 @@ def _costs(digest: Digest) -> dict[str, Any]:
     for row in digest.work_precision:
         rows.setdefault(row["scene"], []).append(row)
     return {scene: cost_figure(mine, digest.columns) for scene, mine in rows.items()}
+
+
+def _cheapest(digest: Digest) -> dict[str, list[Record]]:
+    """What each accuracy of a scene's first observable costs, if any of its configurations has it."""
+    found: dict[str, list[Record]] = {}
+    for row in cheapest(digest.work_precision):
+        mine = found.setdefault(row["scene"], [])
+        if not mine or mine[0]["observable"] == row["observable"]:
+            mine.append(row)
+    return {scene: rows for scene, rows in found.items() if any(row["engine"] for row in rows)}
 
 
 def _settings(digest: Digest) -> list[tuple[str, str, str]]:

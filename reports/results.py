@@ -8,10 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..reference.errors import PoinsotError
 from ..scenarios.observables import Observable
 from ..scenarios.scene import Scene
 from .cell import Cell
+from .cheapest import cheapest
 from .verdict import Status, Verdict
 
 SCHEMA = "poinsot.results/1"
@@ -79,6 +82,7 @@ def results(
         "scenes": {name: _described(scenes[name]) for name in names},
         "cells": [_cell(record, by_cell[record.key]) for record in records],
         "work_precision": [dict(row) for row in work_precision],
+        "cheapest": cheapest(work_precision),
         "notes": list(notes),
         "stale_deviations": list(stale),
     }
@@ -160,7 +164,7 @@ def exit_code(found: Mapping[str, Any]) -> int:
 
 
 def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
-    p = cell.provenance
+    p, distances = cell.provenance, cell.distance(observable)
     return {
         "scene": p.scene,
         "engine": p.engine,
@@ -170,7 +174,9 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
         "steps": p.steps,
         "observable": observable.name,
         "unit": observable.unit,
-        "error": _finite(cell.error(observable)),
+        "error": _finite(float(distances.max())),
+        "error_final": _finite(float(distances[-1])),
+        "error_rms": _finite(float(np.sqrt(np.mean(distances**2)))),
     }
 
 
