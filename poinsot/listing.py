@@ -17,22 +17,29 @@ SHOWN = 12
 
 def as_json() -> str:
     """Every scene and every engine as JSON."""
+    engines = declared()
     found = {
-        "scenes": {name: _scene(scene) for name, scene in scenes().items()},
-        "engines": {engine.name: _engine(engine) for engine in declared()},
+        "scenes": {name: _scene(scene, engines) for name, scene in scenes().items()},
+        "engines": {engine.name: _engine(engine) for engine in engines},
     }
     return json.dumps(found, indent=1, ensure_ascii=False)
 
 
 def as_text() -> str:
-    """Every scene and every engine, a few lines each."""
+    """Every scene with its variants, and every engine, a few lines each."""
     lines, engines = ["Scenes"], declared()
-    for name, scene in scenes().items():
-        able = [engine.name for engine in engines if _able(scene, engine)]
+    for name, variants in _by_name().items():
+        scene = variants[0]
+        able = [engine.name for engine in engines if any(_able(variant, engine) for variant in variants)]
+        left_out = [part for part in scene.left_out if all(part in other.left_out for other in variants)]
+        needed = dict.fromkeys(feature for variant in variants for feature in sorted(variant.features))
+        lines += [f"  {name}"]
+        lines += [f"      {variant.full_name}: {variant.summary}" for variant in variants if variant.variant]
+        lines += [f"      {scene.summary}"] if not scene.variant else []
         lines += [
-            f"  {name}",
-            f"      {scene.summary}",
-            f"      needs {', '.join(sorted(scene.features))}; can run in {', '.join(able)}",
+            f"      source: {scene.source}",
+            f"      needs {', '.join(needed)}; can run in {', '.join(able) or 'no engine'}",
+            f"      leaves out {', '.join(left_out)}",
         ]
     lines += ["", "Engines"]
     for engine in engines:
@@ -75,16 +82,27 @@ def _numbers(verdict: Mapping[str, Any]) -> str:
     return f" ({verdict['measured']:.3g} {verdict['unit']}, {verdict['allowed']:.3g} allowed)"
 
 
+def _by_name() -> dict[str, list[Scene]]:
+    """The variants of each scene."""
+    found: dict[str, list[Scene]] = {}
+    for scene in scenes().values():
+        found.setdefault(scene.name, []).append(scene)
+    return found
+
+
 def _able(scene: Scene, engine: Declaration) -> bool:
     return scene.features <= engine.features and any(
         not scene.features & scheme.lacks.keys() for scheme in engine.schemes
     )
 
 
-def _scene(scene: Scene) -> dict[str, Any]:
+def _scene(scene: Scene, engines: list[Declaration]) -> dict[str, Any]:
     return {
+        "name": scene.name,
+        "variant": scene.variant,
         "summary": scene.summary,
         "source": scene.source,
+        "engines": [engine.name for engine in engines if _able(scene, engine)],
         "features": sorted(scene.features),
         "left_out": list(scene.left_out),
         "duration": scene.duration,

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -135,9 +136,24 @@ def test_list_as_json(capsys):
     assert main(["list", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["scenes"][TOP]["features"] == ["free"]
+    assert found["scenes"][TOP]["engines"] == ["mujoco", "pinocchio", "pybullet"]
     assert {"mujoco", "pybullet", "pinocchio"} <= found["engines"].keys()
     euler = next(s for s in found["engines"]["mujoco"]["schemes"] if s["name"] == "Euler")
     assert (euler["order"], euler["twin"]) == (1, "semi-implicit Euler")
+
+
+def test_list_tells_of_each_scene_what_it_is_where_from_and_what_it_leaves_out(capsys):
+    assert main(["list"]) == 0
+    text = capsys.readouterr().out
+    (told,) = re.findall(r"^  heavy_top\n((?: {6}.+\n)+)", text, re.MULTILINE)
+    for words in (
+        "heavy_top[moderate]: ",
+        "heavy_top[fast]: ",
+        "source: Landau",
+        "needs ball, gravity; can run in",
+    ):
+        assert words in told
+    assert re.search(r"leaves out .*springs in joints.*contact solver", told)
 
 
 def test_list_imports_no_engine_and_nothing_heavy():
