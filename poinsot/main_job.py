@@ -11,7 +11,7 @@ from typing import Any, Protocol
 from .adapters import log, runner
 from .adapters.environment import environment
 from .adapters.runner import Request
-from .adapters.timing import Timing
+from .adapters.timing import SPREAD, Timing
 from .plan import Extent, Plan
 from .reference.errors import InputError
 from .reports import deviations, order, results, truth
@@ -63,6 +63,7 @@ def run(
     records = _simulated(laid, folder, workers, time_limit, progress)
     timings = _timed(laid, records, time_limit, progress) if with_timing else {}
     seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
+    noted = [*laid.notes, *_quality([t for t in timings.values() if isinstance(t, Timing)])]
     untimed = [
         f"{scene} in {engine} {scheme} at dt {dt:g} s: not timed, {reason}"
         for (scene, engine, scheme, dt), reason in timings.items()
@@ -75,7 +76,7 @@ def run(
         "workers": workers,
         "seconds": round(perf_counter() - clock, 1),
     }
-    return report(folder, records, seconds, facts, [*laid.notes, *untimed])
+    return report(folder, records, seconds, facts, [*noted, *untimed])
 
 
 def report(
@@ -195,6 +196,21 @@ def _timed(
     by_scheme = {key[:3]: timing for key, timing in timings.items() if isinstance(timing, Timing)}
     scaled = {r.key: by_scheme[r.key[:3]].of(r.steps) for r in sound if r.key[:3] in by_scheme}
     return scaled | timings
+
+
+def _quality(timings: Sequence[Timing]) -> list[str]:
+    """How far the timings can be trusted, in sentences."""
+    if not timings:
+        return []
+    loose = sum(timing.spread > SPREAD for timing in timings)
+    beats = [timing.beat for timing in timings]
+    said = (
+        f"Timing: beside the cells, a fixed piece of work took {min(beats) * 1e3:.3g} to "
+        f"{max(beats) * 1e3:.3g} ms, so fast was the machine; "
+    )
+    if not loose:
+        return [said + f"no cell's middle repeat took over {SPREAD:.0%} longer than its fastest."]
+    return [said + f"of {len(timings)} cells, {loose} spread by more than {SPREAD:.0%}, repeated or not."]
 
 
 def _own_step(record: CellRecord, records: Sequence[CellRecord]) -> bool:

@@ -29,6 +29,9 @@ GRAVITY = (
     Status.PASS,
 )
 
+#: What a row of ``work_precision`` says of time.
+TIMES = ("seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread")
+
 Key = tuple[str, str, str, float]
 
 
@@ -90,7 +93,7 @@ def results(
 
 def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Error against run time: one row a cell and observable; times are null where none was taken."""
-    untimed = {"seconds_min": None, "seconds_median": None, "repeats": 0, "timed_steps": 0}
+    untimed = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0}
     rows = []
     for cell in cells:
         p = cell.provenance
@@ -142,9 +145,7 @@ def records_of(found: Mapping[str, Any]) -> list[CellRecord]:
 def timings_of(found: Mapping[str, Any]) -> dict[Key, dict[str, Any]]:
     """The run times that results hold, by cell."""
     return {
-        (row["scene"], row["engine"], row["scheme"], row["dt"]): {
-            name: row[name] for name in ("seconds_min", "seconds_median", "repeats", "timed_steps")
-        }
+        (row["scene"], row["engine"], row["scheme"], row["dt"]): {name: row.get(name) for name in TIMES}
         for row in found["work_precision"]
         if row["seconds_min"] is not None
     }

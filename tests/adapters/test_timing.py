@@ -39,6 +39,8 @@ class Sleeper:
 @pytest.fixture(autouse=True)
 def unpinned(monkeypatch):
     monkeypatch.setattr(timing, "pin", lambda: True)
+    # Whatever else the machine does, no test but one wants a cell timed again.
+    monkeypatch.setattr(timing, "SPREAD", float("inf"))
     Sleeper.asked, Sleeper.collecting = [], []
 
 
@@ -67,6 +69,33 @@ def test_nothing_is_collected_inside_the_clock():
     timed(1e-2)
     assert Sleeper.collecting == [False] * 11
     assert gc.isenabled()
+
+
+class Disturbed(Sleeper):
+    """Every other repeat of the first ten takes three times as long."""
+
+    def step(self, n):
+        slow = len(self.asked) % 2 and len(self.asked) <= timing.REPEATS
+        super().step(3 * n if slow else n)
+
+
+def test_a_cell_that_spreads_is_timed_again_and_the_steadier_kept(monkeypatch):
+    monkeypatch.setattr(timing, "SPREAD", 0.2)
+    found = timing.timed(scenes()["free_symmetric_top[oblate]"], Disturbed, SCHEME, 1e-2)
+    assert len(Sleeper.asked) == 1 + 2 * timing.REPEATS
+    assert len(found.seconds) == timing.REPEATS
+    assert found.median < 3 * 1000 * EACH
+    assert timing.Timing(10, 10, (1.0, 1.5, 1.6)).spread == pytest.approx(0.5)
+
+
+def test_the_time_of_other_steps_is_scaled():
+    found = timing.Timing(10, 5, (2.0, 4.0), 1e-3).of(30)
+    assert found == timing.Timing(30, 5, (6.0, 12.0), 1e-3)
+    assert found.as_row()["us_per_step"] == pytest.approx(2e5)
+
+
+def test_the_beat_is_that_of_the_machine():
+    assert 0 < timing.beat() < 0.1
 
 
 class Counted(Sleeper):
