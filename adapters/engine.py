@@ -49,7 +49,8 @@ class Setup(NamedTuple):
     ``values`` maps a setting to its value. Of every body: ``body/NAME/mass`` [kg],
     ``body/NAME/center_of_mass`` (3,) [m] and ``body/NAME/inertia`` (3, 3) [kg m²] about it, both in
     the scene's body axes; of every hinge and slide ``joint/NAME/stiffness`` and
-    ``joint/NAME/damping``; of the world ``gravity`` (3,) [m/s²], ``dt`` [s], ``velocity_limit``
+    ``joint/NAME/damping``; of every contact ``contact/NAME/friction`` and
+    ``contact/NAME/restitution``; of the world ``gravity`` (3,) [m/s²], ``dt`` [s], ``velocity_limit``
     (inf: none), ``linear_damping`` and ``angular_damping`` [1/s].
     ``probed`` names the settings that cannot be read back and were inferred from a probe run.
     """
@@ -95,7 +96,7 @@ class Engine(Protocol):
         """Generalised accelerations (nv,) at coordinates ``q`` and velocities ``v``.
 
         Laid out as ``Scene.q0`` and ``v0``; the result is the time derivative of ``v``, each
-        component in its axes (world for the velocity of a free joint, body for ω).
+        component in its axes (world for the velocity of a free joint, body for ω). Contacts take no part.
         """
         ...
 

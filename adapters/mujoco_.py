@@ -1,4 +1,4 @@
-"""MuJoCo, built by MjSpec: bodies and joints only, no geometry, no contact, no constraint."""
+"""MuJoCo, built by MjSpec: bodies and joints only, and contact where a scene has contacts."""
 
 import warnings
 from typing import Any, ClassVar
@@ -11,12 +11,21 @@ from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
 from .engine import EngineError, Scheme, Setup, State
+from .mujoco_contact import add_contacts, told
 from .mujoco_mjcf import mjcf
 
 #: Where a joint's coordinates lie among MuJoCo's, whose quaternions are scalar-first.
 _PLACES = {"free": (0, 1, 2, 4, 5, 6, 3), "ball": (1, 2, 3, 0), "hinge": (0,), "slide": (0,)}
-_SWITCHED_OFF = ("contact", "constraint", "autoreset", "eulerdamp")
+_SWITCHED_OFF = ("autoreset", "eulerdamp")
+#: Switched off where nothing touches.
+_FOR_CONTACT = ("contact", "constraint")
+_NO_CONTACT = {"contact": "MuJoCo's contact takes a whole step to act: only first-order schemes can carry it"}
 _NO_TURN = (1.0, 0.0, 0.0, 0.0)
+
+_SOFT_CONTACT = {
+    "contact": "it takes a contact's damper at the end of the step: one of 1/dt leaves half the speed of a "
+    "blow, and none lets two bodies part"
+}
 
 
 def _integrator(scheme: Scheme) -> str:
@@ -36,14 +45,16 @@ class MuJoCo:
         Scheme("Euler", 1, "semi-implicit Euler", {}),
         Scheme("implicit", 1, "implicit gyroscopic", {}),
         Scheme("implicitfast", 1, "implicitfast", {}),
-        Scheme("RK4", 4, "RKMK4", {}),
-        Scheme("discrete", 1, "discrete", {}),
+        Scheme("RK4", 4, "RKMK4", _NO_CONTACT),
+        Scheme("discrete", 1, "discrete", _SOFT_CONTACT),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
     settings: ClassVar[dict[str, str]] = {
         "autoreset": "off: a state that is not finite stays what it is and is reported",
         "eulerdamp": "off: Euler takes dampers at the start of the step, as its twins do",
-        "contact, constraint": "off: nothing touches, and joints need no constraint",
+        "contact, constraint": "off, but where a scene has contacts",
+        "contacts": "of an impedance of 0.9999 at any depth; a blow without spring, damped at (1 + e)/dt; a "
+        "rough contact with a spring of 1/dt² and damped at 1/dt; elliptic cone, impratio 10, no tolerance",
         "sameframe": "none, where the inertial frame differs at all from the body's; "
         "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
     }
@@ -104,21 +115,24 @@ class MuJoCo:
         for joint, v in zip(self._scene.scalar_joints, self._scalar_v, strict=True):
             values[f"joint/{joint.name}/stiffness"] = float(model.jnt_stiffness[model.dof_jntid[v]])
             values[f"joint/{joint.name}/damping"] = float(model.dof_damping[v])
-        return Setup(values)
+        return Setup({**values, **told(model, self._scene)})
 
     def acceleration(self, q: Array, v: Array) -> Array:
-        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``."""
+        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.
+
+        Contacts take no part: theirs depend on the step.
+        """
         model, data = self._model, self._scratch
         data.qpos[self._q], data.qvel[self._v] = q, v
         # Under "discrete" qacc is the change of velocity over a whole step.
         chosen, model.opt.integrator = model.opt.integrator, mujoco.mjtIntegrator.mjINT_EULER
         mujoco.mj_forward(model, data)
         model.opt.integrator = chosen
-        return np.asarray(data.qacc[self._v])
+        return np.asarray(data.qacc_smooth[self._v])
 
     def model_text(self) -> tuple[str, str]:
         """The model as MJCF, with every digit."""
-        return "model.xml", mjcf(self._spec, self._scheme.name, _SWITCHED_OFF)
+        return "model.xml", mjcf(self._spec, self._scheme.name, _switched_off(self._scene))
 
     def close(self) -> None:
         """Let go of the model."""
@@ -155,7 +169,7 @@ class MuJoCo:
 # Until release 4.0 RK4 averaged the body velocities of its stages: second order in attitude.
 if int(MuJoCo.version().split(".")[0]) < 4:
     MuJoCo.schemes = tuple(
-        Scheme("RK4", 2, "RK4 of body velocities", {}) if scheme.name == "RK4" else scheme
+        Scheme("RK4", 2, "RK4 of body velocities", _NO_CONTACT) if scheme.name == "RK4" else scheme
         for scheme in MuJoCo.schemes
         if hasattr(mujoco.mjtIntegrator, _integrator(scheme))
     )
@@ -167,14 +181,20 @@ def _spec(scene: Scene, scheme: Scheme, dt: float) -> tuple[Any, list[Any], list
     spec.modelname = scene.full_name
     spec.option.integrator = getattr(mujoco.mjtIntegrator, _integrator(scheme))
     spec.option.timestep, spec.option.gravity = dt, scene.gravity
-    for flag in _SWITCHED_OFF:
+    for flag in _switched_off(scene):
         spec.option.disableflags |= int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag.upper()}"))
     bodies: dict[str | None, Any] = {None: spec.worldbody}
     joints = []
     for body in scene.bodies:
         bodies[body.name] = _add_body(bodies[body.parent], body)
         joints += [_add_joint(bodies[body.name], joint) for joint in body.joints]
+    if scene.contacts:
+        add_contacts(mujoco, spec, bodies, scene, dt)
     return spec, list(bodies.values())[1:], joints
+
+
+def _switched_off(scene: Scene) -> tuple[str, ...]:
+    return _SWITCHED_OFF if scene.contacts else (*_FOR_CONTACT, *_SWITCHED_OFF)
 
 
 def _add_body(parent: Any, body: Body) -> Any:

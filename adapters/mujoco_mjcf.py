@@ -8,7 +8,7 @@ import numpy as np
 
 
 def mjcf(spec: Any, integrator: str, switched_off: Iterable[str]) -> str:
-    """MJCF of the bodies, joints and options of an ``MjSpec``; MuJoCo reads the same bits back."""
+    """MJCF of the bodies, joints, contacts and options of an ``MjSpec``; MuJoCo reads the same bits back."""
     root = Element("mujoco", model=spec.modelname)
     option = spec.option
     element = SubElement(
@@ -20,8 +20,14 @@ def mjcf(spec: Any, integrator: str, switched_off: Iterable[str]) -> str:
     )
     SubElement(element, "flag", dict.fromkeys(switched_off, "disable"))
     world = SubElement(root, "worldbody")
+    _add_geoms(world, spec.worldbody)
     for body in spec.worldbody.bodies:
         _add_body(world, body)
+    if spec.pairs:
+        element.set("cone", "elliptic")  # as mujoco_contact sets it; MjSpec tells only a number
+        element.set("impratio", _digits(option.impratio))
+        element.set("tolerance", _digits(option.tolerance))
+        _add_pairs(SubElement(root, "contact"), spec.pairs)
     indent(root)
     return tostring(root, encoding="unicode") + "\n"
 
@@ -41,6 +47,7 @@ def _add_body(parent: Element, body: Any) -> None:
     )
     for joint in body.joints:
         _add_joint(element, joint)
+    _add_geoms(element, body)
     for child in body.bodies:
         _add_body(element, child)
 
@@ -52,6 +59,36 @@ def _add_joint(parent: Element, joint: Any) -> None:
         element.set("axis", _digits(joint.axis))
         element.set("stiffness", _digits(joint.stiffness))
         element.set("damping", _digits(joint.damping))
+
+
+def _add_geoms(parent: Element, body: Any) -> None:
+    for geom in body.geoms:
+        SubElement(
+            parent,
+            "geom",
+            name=geom.name,
+            type=geom.type.name.removeprefix("mjGEOM_").lower(),
+            size=_digits(geom.size),
+            pos=_digits(geom.pos),
+            quat=_digits(geom.quat),
+            contype="0",
+            conaffinity="0",
+        )
+
+
+def _add_pairs(parent: Element, pairs: Iterable[Any]) -> None:
+    for pair in pairs:
+        SubElement(
+            parent,
+            "pair",
+            name=pair.name,
+            geom1=pair.geomname1,
+            geom2=pair.geomname2,
+            condim=str(pair.condim),
+            friction=_digits(pair.friction),
+            solref=_digits(pair.solref),
+            solimp=_digits(pair.solimp),
+        )
 
 
 def _digits(value: Any) -> str:

@@ -11,6 +11,7 @@ from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
 from .engine import EngineError, Scheme, Setup, State
+from .pinocchio_contact import Contacts
 from .pinocchio_json import model_json
 from .pinocchio_schemes import Advance, Mechanism, implicit_gyroscopic, rkmk4, semi_implicit_euler
 
@@ -28,7 +29,12 @@ class Pinocchio:
     schemes: ClassVar[tuple[Scheme, ...]] = (
         Scheme("semi-implicit Euler", 1, "semi-implicit Euler", {}),
         Scheme("implicit gyroscopic", 1, "implicit gyroscopic", {}),
-        Scheme("RKMK4", 4, "RKMK4", {}),
+        Scheme(
+            "RKMK4",
+            4,
+            "RKMK4",
+            {"contact": "contact takes a whole step to act: only first-order schemes carry it"},
+        ),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
     settings: ClassVar[dict[str, str]] = {
@@ -36,6 +42,8 @@ class Pinocchio:
         "free bodies": "a translation and then a ball joint, with the velocity in world axes "
         "(a FreeFlyer's, in body axes, is another and worse scheme)",
         "springs and dampers": "joint forces of ours, taken where the scheme takes its accelerations",
+        "contacts": "points, normals and gaps are Poinsot's own; the impulses are those of Pinocchio's "
+        "projected Gauss-Seidel solver, at the end of each step",
     }
 
     @staticmethod
@@ -88,10 +96,16 @@ class Pinocchio:
         for joint, (_, stiffness, damping) in zip(self._scene.scalar_joints, self._springs(), strict=True):
             values[f"joint/{joint.name}/stiffness"] = stiffness
             values[f"joint/{joint.name}/damping"] = damping
+        for contact in self._scene.contacts:  # ours, so that there is nothing to read back
+            values[f"contact/{contact.name}/friction"] = contact.friction
+            values[f"contact/{contact.name}/restitution"] = contact.restitution
         return Setup(values)
 
     def acceleration(self, q: Array, v: Array) -> Array:
-        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``."""
+        """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.
+
+        Contacts take no part: theirs depend on the step.
+        """
         position, velocity = self._ours_to_pinocchio(q, v)
         force = self._mechanism.force(position, velocity)
         return np.asarray(pin.aba(self._model, self._data, position, velocity, force)[self._v])
@@ -146,8 +160,11 @@ class Pinocchio:
             return data.M, data.dtau_dv - self._drag
 
         balls = [int(model.idx_vs[i]) for i in range(1, model.njoints) if model.nqs[i] == 4]
+        scene, frames, touch = self._scene, self._frames, None
+        if scene.contacts:
+            touch = Contacts(pin, model, scene, frames, self._dt).after
         return Mechanism(
-            force, partial(pin.aba, model, data), partial(pin.integrate, model), linearised, balls
+            force, partial(pin.aba, model, data), partial(pin.integrate, model), linearised, balls, touch
         )
 
     def _springs(self) -> list[tuple[int, float, float]]:

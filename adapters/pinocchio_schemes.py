@@ -17,7 +17,9 @@ class Mechanism:
     ``force(q, v)`` is that of springs and dampers (nv,); ``accelerate(q, v, force)`` gives v̇ (nv,);
     ``integrate(q, dq)`` is q ⊕ dq; ``linearised(q, v)`` gives the mass matrix and −∂f/∂v of the whole
     generalised force f = M v̇, (nv, nv) each and new at every call; ``balls`` are the first places in v
-    of the angular velocities whose coordinates are quaternions.
+    of the angular velocities whose coordinates are quaternions. ``touch(q, before, free)`` are the
+    velocities after contact, given those at the start of a step and those it would end with; ``None``
+    where nothing touches.
     """
 
     force: Callable[[Array, Array], Array]
@@ -25,6 +27,7 @@ class Mechanism:
     integrate: Callable[[Array, Array], Array]
     linearised: Callable[[Array, Array], tuple[Array, Array]]
     balls: Sequence[int]
+    touch: Callable[[Array, Array, Array], Array] | None = None
 
 
 # numpy's solve takes longer to check its arguments than LAPACK to solve for a few bodies.
@@ -36,11 +39,15 @@ Advance = Callable[[Mechanism, Array, Array, float, int], tuple[Array, Array]]
 def semi_implicit_euler(system: Mechanism, q: Array, v: Array, dt: float, n: int) -> tuple[Array, Array]:
     """Advance by v += a dt, then q ⊕= v dt."""
     force, accelerate, integrate, multiply = system.force, system.accelerate, system.integrate, np.multiply
+    touch = system.touch
     # An array of no dimensions and a place for the product: numpy is a third of the cost of a step.
     step, change = np.array(dt), np.empty_like(v)
     for _ in range(n):
         multiply(accelerate(q, v, force(q, v)), step, change)
-        v += change
+        if touch is None:
+            v += change
+        else:
+            v = touch(q, v, v + change)
         multiply(v, step, change)
         q = integrate(q, change)
     return q, v
@@ -55,7 +62,8 @@ def implicit_gyroscopic(system: Mechanism, q: Array, v: Array, dt: float, n: int
         mass, drag = system.linearised(q, v)
         drag *= step
         a -= _solve(mass + drag, drag @ a)[2]
-        v += step * a
+        a *= step
+        v = v + a if system.touch is None else system.touch(q, v, v + a)
         q = integrate(q, step * v)
     return q, v
 

@@ -1,9 +1,10 @@
-"""PyBullet, without shapes, contact or motors: trees in reduced, free bodies also in maximal coordinates."""
+"""PyBullet: trees in reduced coordinates, free bodies in maximal ones too; contact only where asked for."""
 
 import importlib.metadata
 import math
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -13,11 +14,14 @@ from ..reference.checked import Array, finite
 from ..reference.quaternions import conjugate, product, rotated
 from ..scenarios.body import IDENTITY
 from ..scenarios.scene import FEATURES, Scene
+from . import pybullet_blows as blows
+from . import pybullet_contact as contact
 from . import pybullet_limits as limits
 from . import pybullet_probes as probes
 from .c_output import caught
 from .engine import Scheme, Setup, State
 from .pybullet_layout import Place, layout, of_ball, of_base, of_inertia
+from .pybullet_settings import SETTINGS
 from .pybullet_urdf import trees, urdf
 
 with caught():  # PyBullet prints when it was built
@@ -33,18 +37,11 @@ class PyBullet:
 
     name: ClassVar[str] = "pybullet"
     schemes: ClassVar[tuple[Scheme, ...]] = (
-        Scheme(_REDUCED, 1, "semi-implicit Euler", {}),
-        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.JOINTED),
+        Scheme(_REDUCED, 1, "semi-implicit Euler", contact.NO_RIM),
+        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.JOINTED | contact.NO_RIM),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
-    settings: ClassVar[dict[str, str]] = {
-        "damping": "none, linear or angular (PyBullet's own default in reduced coordinates is 0.04)",
-        "velocity limit": "none (PyBullet's own default in reduced coordinates is 100)",
-        "motors": "without force (PyBullet's own hold every joint)",
-        "sleeping": "off",
-        "springs": "joint forces of ours at the start of each step; PyBullet has none",
-        "batches": "without springs and dampers up to 256 steps in one call, by numSubSteps",
-    }
+    settings: ClassVar[dict[str, str]] = SETTINGS
 
     @staticmethod
     def version() -> str:
@@ -61,7 +58,8 @@ class PyBullet:
         """
         self._maximal = scheme.name == _MAXIMAL
         limits.refuse(scene, scheme, self._maximal)
-        self._scene, self._bare = scene, probes.without(scene, "gravity", "stiffness", "damping")
+        self._scene, self._untouched = scene, probes.without(scene)
+        self._bare = probes.without(scene, "gravity", "stiffness", "damping")
         self._copy: _World | None = None
         q0, v0 = np.array(scene.q0), np.array(scene.v0)
         limits.refuse_frozen(scene, [self._response(i, q0) for i in range(len(scene.scalar_joints))])
@@ -84,16 +82,18 @@ class PyBullet:
         resting = [self._response(i, probes.rest(scene)) for i in numbers]
         change = self._loaded(probes.without(scene, "gravity")).change
         tried |= probes.of_joints(scene, change, displaced, resting)
+        if self._maximal and scene.contacts:
+            tried |= blows.of_contacts(scene, self._loaded(replace(scene, gravity=(0, 0, 0))).change)
         return Setup({**self._world.told(), **tried}, tuple(tried))
 
     def acceleration(self, q: Array, v: Array) -> Array:
         """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.
 
         The change of velocity over one step: in reduced coordinates one of 1 s, exact for the scheme;
-        in maximal ones the limit of small steps, good to 1e-13 ω², ω the fastest of the scene.
+        in maximal ones the limit of small steps, good to 1e-13 ω², ω the fastest of the scene. No contacts.
         """
         q, v = finite("q", q, (len(self._scene.q0),)), finite("v", v, (len(self._scene.v0),))
-        change = self._loaded(self._scene).change
+        change = self._loaded(self._untouched).change
         return probes.limit(change, q, v) if self._maximal else change(q, v, 1.0, 1)
 
     def model_text(self) -> tuple[str, str]:
@@ -134,7 +134,9 @@ class _World:
         uids = {_load(client, scene, tree, maximal): tree for tree in trees(scene)}
         links = dict(named for uid in uids for named in _quieted(client, uid))
         self._at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
-        self._springs, self._damped = self._at.springs, any(joint.damping for joint in scene.joints)
+        self._springs = self._at.springs
+        self._pairs = contact.connect(p, client, scene, self._at.bodies) if scene.contacts else []
+        self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
         frames = [_inertial_frame(client, *place) for place in self._at.bodies]
         self._center, self._axes = (np.array(part) for part in zip(*frames, strict=True))
         self._carried = np.vstack([self._axes, IDENTITY])
@@ -158,7 +160,7 @@ class _World:
             self._pull(n)
             return
         # PyBullet applies joint damping once a call, and not once a step.
-        for size in (1,) if self._damped else _BATCHES:
+        for size in (1,) if self._by_one else _BATCHES:
             calls, n = divmod(n, size)
             if calls:
                 self._batch(size)
@@ -200,7 +202,7 @@ class _World:
         for body, place, center, axes in bodies:
             mass, _, moments, *_ = p.getDynamicsInfo(*place, self.client)
             values |= of_inertia(body.name, mass, moments, center, axes)
-        return values
+        return values | contact.told(p, self.client, self.scene, self._pairs)
 
     def _batch(self, size: int) -> None:
         """Make a call of so many steps."""

@@ -9,6 +9,7 @@ from ..reference.checked import Array
 from ..reference.errors import InputError
 from ..scenarios.body import WIDTHS
 from ..scenarios.scene import Scene
+from . import pybullet_contact
 from .engine import EngineError, Scheme, State
 from .pybullet_urdf import is_free, principal_axes, trees
 
@@ -30,6 +31,7 @@ def refuse(scene: Scene, scheme: Scheme, maximal: bool) -> None:
     lacking = dict.fromkeys(scheme.lacks[name] for name in sorted(scene.features & scheme.lacks.keys()))
     if lacking:
         raise InputError(f"scene {scene.full_name}: {'; '.join(lacking)}")
+    pybullet_contact.refuse(scene)
     for tree in trees(scene):
         _refuse_small(scene, tree, maximal)
         _refuse_large(scene, tree)

@@ -141,13 +141,13 @@ def at_origin(center: Array, turn: Array, omega: Array, arm: Array) -> Array:
 
 
 def without(scene: Scene, *settings: str) -> Scene:
-    """The scene without its ``gravity``, springs (``stiffness``) or dampers (``damping``)."""
+    """The scene without contacts, nor its ``gravity``, springs (``stiffness``) or dampers (``damping``)."""
     lost: dict[str, Any] = dict.fromkeys(set(settings) - {"gravity"}, 0.0)
     bodies = [
         replace(body, joints=tuple(replace(joint, **lost) for joint in body.joints)) for body in scene.bodies
     ]
     gravity = (0.0, 0.0, 0.0) if "gravity" in settings else scene.gravity
-    return replace(scene, bodies=tuple(bodies), gravity=gravity)
+    return replace(scene, bodies=tuple(bodies), gravity=gravity, contacts=())
 
 
 def _share(change: Array, response: Array) -> float:

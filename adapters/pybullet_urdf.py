@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ from ..reference import quaternions
 from ..reference.checked import Array
 from ..scenarios.body import IDENTITY, Body, Joint
 from ..scenarios.scene import Scene
+from .pybullet_shapes import shapes
 
 _TYPES = {"ball": "spherical", "hinge": "continuous", "slide": "prismatic"}
 
@@ -47,7 +48,7 @@ def urdf(scene: Scene, tree: list[int]) -> str:
     names = {scene.bodies[index].name: _link_name(scene, index) for index in tree}
     for index in tree:
         body = scene.bodies[index]
-        lines += _body(names[body.name], body)
+        lines += _body(names[body.name], body, shapes(scene, index))
         lines += _joints(index, body, names.get(body.parent or "", "ground"), names[body.name])
     return "\n".join([*lines, "</robot>", ""])
 
@@ -81,17 +82,24 @@ def roll_pitch_yaw(axes: Array) -> tuple[float, float, float]:
     return roll, pitch, yaw
 
 
-def _body(name: str, body: Body) -> Iterator[str]:
+def _body(name: str, body: Body, shaped: Iterable[str]) -> Iterator[str]:
     moments, axes = principal_axes(body.inertia_array)
-    return _link(name, body.mass, moments, _origin(body.center_of_mass, axes))
+    return _link(name, body.mass, moments, _origin(body.center_of_mass, axes), shaped)
 
 
-def _link(name: str, mass: float, moments: npt.ArrayLike = (0, 0, 0), origin: str = "") -> Iterator[str]:
+def _link(
+    name: str,
+    mass: float,
+    moments: npt.ArrayLike = (0, 0, 0),
+    origin: str = "",
+    shaped: Iterable[str] = (),
+) -> Iterator[str]:
     xx, yy, zz = (repr(float(moment)) for moment in np.asarray(moments))
     yield f'<link name="{name}">'
     yield f'  <inertial>{origin}<mass value="{float(mass)!r}"/>'
     yield f'    <inertia ixx="{xx}" iyy="{yy}" izz="{zz}" ixy="0" ixz="0" iyz="0"/>'
     yield "  </inertial>"
+    yield from shaped
     yield "</link>"
 
 

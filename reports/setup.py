@@ -62,6 +62,9 @@ def expected(scene: Scene, dt: float) -> Mapping[str, Any]:
     for joint in scene.scalar_joints:
         asked[f"joint/{joint.name}/stiffness"] = joint.stiffness
         asked[f"joint/{joint.name}/damping"] = joint.damping
+    for contact in scene.contacts:
+        asked[f"contact/{contact.name}/friction"] = contact.friction
+        asked[f"contact/{contact.name}/restitution"] = contact.restitution
     return asked
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from ..reference.checked import Array, finite, positive
 from ..reference.errors import InputError
 from .body import WIDTHS, Body, Joint, Vector
+from .contact import Contact, Rim
 from .observables import Observable
 from .pictures import Picture
 from .trajectory import Trajectory
@@ -26,6 +27,9 @@ FEATURES: dict[str, str] = {
     "gravity": "gravity",
     "spring": "springs in joints",
     "damper": "dampers in joints",
+    "contact": "contact",
+    "friction": "friction in contacts",
+    "rim": "contact on the rim of a disc",
 }
 
 #: What no scene gets unless a later feature names it, in words for the report.
@@ -43,6 +47,8 @@ class Scene:
     The run lasts ``duration`` [s] and is looked at ``samples`` times after the start, evenly.
     ``dt`` [s] is the step to run at when none is asked for; ``ladders`` maps a scheme's order, or
     its twin name where that needs others, to the steps over which its order is measured.
+
+    ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
@@ -69,6 +75,7 @@ class Scene:
     ladders: Mapping[int | str, tuple[float, ...]] = field(default_factory=dict)
     errors: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     scheme_motion: SchemeMotion | None = None
+    contacts: tuple[Contact, ...] = ()
 
     def __post_init__(self) -> None:
         try:
@@ -101,13 +108,20 @@ class Scene:
             "gravity": any(self.gravity),
             "spring": any(joint.stiffness for joint in self.joints),
             "damper": any(joint.damping for joint in self.joints),
+            "contact": bool(self.contacts),
+            "friction": any(contact.friction for contact in self.contacts),
+            "rim": any(isinstance(contact.shape, Rim) for contact in self.contacts),
         }
         return frozenset(found | {name for name, present in optional.items() if present})
 
     @cached_property
     def left_out(self) -> tuple[str, ...]:
         """What an engine's model of this scene does not hold, in words."""
-        return (*(words for name, words in FEATURES.items() if name not in self.features), *NEVER_BUILT)
+        needed = {"collision shapes", "contact solver"} if self.contacts else set[str]()
+        if any(contact.second is None for contact in self.contacts):
+            needed.add("ground")
+        never = [part for part in NEVER_BUILT if part not in needed]
+        return (*(words for name, words in FEATURES.items() if name not in self.features), *never)
 
     def sample_times(self) -> Array:
         """Times of the samples, (samples + 1,) [s], the start included."""
@@ -181,6 +195,7 @@ class Scene:
                 raise InputError(
                     f"body {body.name!r} parent: got {body.parent!r}, expected a body listed before it"
                 )
+        self._check_contacts()
         nq, nv = (sum(WIDTHS[joint.kind][side] for joint in self.joints) for side in (0, 1))
         q0 = finite("q0", self.q0, (nq,))
         finite("v0", self.v0, (nv,))
@@ -189,6 +204,18 @@ class Scene:
                 raise InputError(
                     f"q0 of joint {joint.name!r}: got {q0[where].tolist()}, expected a unit quaternion"
                 )
+
+    def _check_contacts(self) -> None:
+        bodies = {body.name: body for body in self.bodies}
+        for contact in self.contacts:
+            for name in filter(None, (contact.first, contact.second)):
+                if name not in bodies:
+                    raise InputError(
+                        f"contact {contact.name!r}: got body {name!r}, expected one of {', '.join(bodies)}"
+                    )
+        pairs = [contact.name for contact in self.contacts]
+        if len(set(pairs)) != len(pairs):
+            raise InputError(f"contacts: got {pairs}, expected each pair once")
 
 
 def every_scheme(rows: Mapping[str, tuple[float, ...]], like: str) -> dict[str, tuple[float, ...]]:

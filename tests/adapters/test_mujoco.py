@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import warnings
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -11,6 +12,7 @@ from poinsot.adapters.engine import EngineError
 from poinsot.adapters.mujoco_ import MuJoCo
 from poinsot.reference import equations_of_motion
 from poinsot.scenarios.body import Body, Joint, diagonal
+from poinsot.scenarios.contact import Contact, Plane, Rim, Sphere
 from scipy.spatial.transform import Rotation
 
 SCHEMES = {scheme.name: scheme for scheme in MuJoCo.schemes}
@@ -463,6 +465,28 @@ def same_model(engine):
     for field in ("timestep", "gravity", "integrator", "disableflags", "enableflags"):
         assert np.all(getattr(copied.opt, field) == getattr(engine._model.opt, field)), field
     return copied
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("against", [Sphere(0.3), Plane((0.6, 0.0, 0.8), 0.1)])
+@pytest.mark.parametrize("second", ["second", None])
+def test_the_text_holds_every_shape_and_contact(scene_of, friction, against, second):
+    bodies = [Body(name, 1.0, diagonal(1, 1, 1), (Joint(name, "free"),)) for name in ("first", "second")]
+    q = [0, 0, 0, 0, 0, 0, 1, 1, 2, 3, 0, 0, 0, 1]
+    contact = Contact("first", Rim(0.2) if second is None else Sphere(0.2), second, against, friction, 0.0)
+    if second is None and isinstance(against, Sphere):
+        against = Plane((0.0, 0.0, -1.0))
+        contact = replace(contact, against=against)
+    engine = built(replace(scene_of(bodies, q, [0] * 12), contacts=(contact,)))
+    copied = same_model(engine)
+    assert (copied.ngeom, copied.npair) == (2, 1)
+    for name in ("cone", "impratio", "tolerance"):
+        assert getattr(copied.opt, name) == getattr(engine._model.opt, name)
+    # The face of the shape it is against points along the normal.
+    if isinstance(against, Plane):
+        face = np.zeros(9)
+        mujoco.mju_quat2Mat(face, copied.geom("0 second").quat)
+        assert face.reshape(3, 3)[:, 2] == pytest.approx(against.normal)
 
 
 @EVERY_SCHEME

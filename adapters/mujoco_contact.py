@@ -1,0 +1,90 @@
+"""Contact in MuJoCo: shapes, the pairs that touch, and a solver set as hard as it goes.
+
+MuJoCo's contacts are springs: over a step they take away the share ``IMPEDANCE`` of what would break
+them. With a damping of 1/dt that brings the velocity of a contact to 0 in one step, and with
+(1 + e)/dt to −e times what it was.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..scenarios.contact import Contact, Plane, Sphere
+from ..scenarios.scene import Scene
+
+#: The most that MuJoCo takes, at any depth: its own default changes over the first millimetre.
+IMPEDANCE = 0.9999
+#: No spring for a blow; MuJoCo takes 0 for its own format of other meaning.
+NO_SPRING = 1e-15
+#: Half the width and half the depth [m] of the box that stands for a plane that moves.
+WIDTH, DEPTH = 10.0, 0.5
+#: How much less friction gives way than the normal does; beyond 100 the solver finds no end.
+FRICTION_RATIO = 10.0
+#: Thickness of the ellipsoid that stands for a rim, to its radius.
+THIN = 1e-3
+
+
+def add_contacts(mujoco: Any, spec: Any, bodies: Mapping[str | None, Any], scene: Scene, dt: float) -> None:
+    """Give a model its shapes and contacts, and its solver what it needs for them."""
+    option = spec.option
+    option.cone, option.impratio, option.tolerance = mujoco.mjtCone.mjCONE_ELLIPTIC, FRICTION_RATIO, 0.0
+    for number, contact in enumerate(scene.contacts):
+        raised = _settled(contact, scene, dt)
+        _add_shape(mujoco, bodies[contact.first], contact.shape, f"{number} first", 0.0)
+        _add_shape(mujoco, bodies[contact.second], contact.against, f"{number} second", raised)
+        pair = spec.add_pair(name=contact.name, geomname1=f"{number} first", geomname2=f"{number} second")
+        pair.condim = 3 if contact.friction else 1
+        pair.friction[:2] = contact.friction
+        pair.solref = (
+            [-1 / dt**2, -1 / dt] if contact.friction else [-NO_SPRING, -(1 + contact.restitution) / dt]
+        )
+        pair.solimp[:2] = IMPEDANCE
+
+
+def told(model: Any, scene: Scene) -> dict[str, float]:
+    """Friction and restitution of every contact, as the compiled model has them."""
+    values: dict[str, float] = {}
+    for number, contact in enumerate(scene.contacts):
+        values[f"contact/{contact.name}/friction"] = float(model.pair_friction[number, 0])
+        damping = -float(model.pair_solref[number, 1])
+        values[f"contact/{contact.name}/restitution"] = damping * float(model.opt.timestep) - 1
+    return values
+
+
+def _settled(contact: Contact, scene: Scene, dt: float) -> float:
+    """How deep [m] a body lies in what it rests on, so that it neither sinks nor is thrown up at first."""
+    if not contact.friction:
+        return 0.0
+    return (1 - IMPEDANCE) * float(np.linalg.norm(scene.gravity)) * dt**2
+
+
+def _add_shape(mujoco: Any, body: Any, shape: Any, name: str, raised: float) -> None:
+    geom = body.add_geom(name=name, contype=0, conaffinity=0)
+    if isinstance(shape, Sphere):
+        geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [shape.radius, 0, 0]
+    elif isinstance(shape, Plane):
+        _flat(mujoco, geom, shape, raised, fixed=body.name == "world")
+    else:  # of an ellipsoid as thin as this only the rim ever touches
+        geom.type, geom.size = (
+            mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+            [shape.radius, shape.radius, THIN * shape.radius],
+        )
+
+
+def _flat(mujoco: Any, geom: Any, plane: Plane, raised: float, fixed: bool) -> None:
+    """A plane; or, as MuJoCo's planes do not move, the face of a box."""
+    geom.type = mujoco.mjtGeom.mjGEOM_PLANE if fixed else mujoco.mjtGeom.mjGEOM_BOX
+    geom.size = [0, 0, 1] if fixed else [WIDTH, WIDTH, DEPTH]
+    normal = np.array(plane.normal)
+    geom.pos = normal * (plane.offset + raised - (0.0 if fixed else DEPTH))
+    geom.quat = _turn_to(normal)
+
+
+def _turn_to(normal: Any) -> list[float]:
+    """Turn (4,), scalar first, that takes z to ``normal`` (3,)."""
+    x, y, z = normal
+    if z < -1 + 1e-12:
+        return [0.0, 1.0, 0.0, 0.0]
+    quat = np.array([1 + z, -y, x, 0.0])
+    return [float(part) for part in quat / np.linalg.norm(quat)]

@@ -1,0 +1,11 @@
+"""PyBullet's own settings that a reader should know, in words."""
+
+SETTINGS = {
+    "damping": "none, linear or angular (PyBullet's own default in reduced coordinates is 0.04)",
+    "velocity limit": "none (PyBullet's own default in reduced coordinates is 100)",
+    "motors": "without force (PyBullet's own hold every joint)",
+    "sleeping": "off",
+    "springs": "joint forces of ours at the start of each step; PyBullet has none",
+    "batches": "without springs, dampers and contacts up to 256 steps in one call, by numSubSteps",
+    "contacts": "200 iterations, no tolerance, no correction of depths, no least speed of a bounce",
+}
