@@ -1,15 +1,8 @@
 """A symmetric top on a fixed point under gravity: it precesses and nutates."""
 
-from functools import cache
-
-import numpy as np
-
-from ..reference import heavy_top_rates
-from ..reference.checked import Array
 from . import observables, pictures, pivoted_top
 from .body import Vector
 from .scene import Scene, every_scheme
-from .trajectory import Trajectory
 
 #: Mass [kg], distance of the centre of mass [m], moments about the fixed point [kg m²], g [m/s²].
 MASS, LENGTH, I1, I3, G = 1.0, 0.05, 0.0065, 0.0075, 9.81
@@ -17,24 +10,6 @@ TILTED = (0.28, 0.0, 0.0, 0.96)
 
 
 Ladders = dict[int | str, tuple[float, ...]]
-
-
-@cache
-def _mean_precession(scene: Scene) -> float:
-    return heavy_top_rates.mean_precession(*pivoted_top.arguments(scene))
-
-
-@cache
-def _nutation_frequency(scene: Scene) -> float:
-    return 2 * np.pi / heavy_top_rates.nutation_period(*pivoted_top.arguments(scene))
-
-
-def _nutating(scene: Scene, motion: Trajectory) -> Array:
-    """Height about its mean, and its speed over the nutation frequency: a circle, if a dented one."""
-    length = scene.bodies[0].center_of_mass[2]
-    lowest, highest, *_ = heavy_top_rates.turning_points(*pivoted_top.arguments(scene))
-    height = motion.position[:, 0, 2] - length * (lowest + highest) / 2
-    return np.asarray(height - 1j * motion.velocity[:, 0, 2] / _nutation_frequency(scene))
 
 
 def _top(variant: str, summary: str, omega0: Vector, samples: int, ladders: Ladders) -> Scene:
@@ -53,8 +28,8 @@ def _top(variant: str, summary: str, omega0: Vector, samples: int, ladders: Ladd
         observables=(
             observables.orientation(),
             observables.omega(),
-            observables.rate("precession", pivoted_top.from_above, _mean_precession),
-            observables.rate("nutation", _nutating, _nutation_frequency),
+            observables.rate("precession", pivoted_top.from_above, pivoted_top.mean_precession),
+            observables.rate("nutation", pivoted_top.nutating, pivoted_top.nutation_frequency),
             observables.energy(),
             observables.vertical_angular_momentum(),
             observables.axial_angular_momentum(),

@@ -1,8 +1,10 @@
 """A symmetric top with one point fixed, under gravity: its exact motion, and what its axis does."""
 
+from functools import cache
+
 import numpy as np
 
-from ..reference import heavy_top
+from ..reference import heavy_top, heavy_top_rates
 from ..reference.checked import Array
 from .body import Body, Joint, diagonal
 from .scene import Scene
@@ -12,13 +14,13 @@ from .trajectory import Trajectory, about_fixed_point
 Arguments = tuple[float, float, tuple[float, float], float, tuple[float, ...], tuple[float, ...]]
 
 
-def top(mass: float, length: float, I1: float, I3: float) -> Body:
+def top(mass: float, length: float, I1: float, I3: float, name: str = "top") -> Body:
     """A top on a ball joint, its centre of mass at ``length`` [m] along e3.
 
     ``mass`` [kg]; ``I1`` and ``I3`` [kg m²] about the fixed point.
     """
     about_center = diagonal(I1 - mass * length**2, I1 - mass * length**2, I3)
-    return Body("top", mass, about_center, (Joint("pivot", "ball"),), center_of_mass=(0.0, 0.0, length))
+    return Body(name, mass, about_center, (Joint("pivot", "ball"),), center_of_mass=(0.0, 0.0, length))
 
 
 def arguments(scene: Scene) -> Arguments:
@@ -44,3 +46,23 @@ def from_above(scene: Scene, motion: Trajectory) -> Array:
 def tilt(scene: Scene, motion: Trajectory) -> Array:
     """Angle (n,) [rad] between the axis and the vertical."""
     return np.arctan2(np.abs(from_above(scene, motion)), motion.position[:, 0, 2])
+
+
+@cache
+def mean_precession(scene: Scene) -> float:
+    """Mean rate of the azimuth [rad/s]."""
+    return heavy_top_rates.mean_precession(*arguments(scene))
+
+
+@cache
+def nutation_frequency(scene: Scene) -> float:
+    """Nods of 2π a second [rad/s]."""
+    return 2 * np.pi / heavy_top_rates.nutation_period(*arguments(scene))
+
+
+def nutating(scene: Scene, motion: Trajectory) -> Array:
+    """Height about its mean, and its speed over the nutation frequency: a circle (n,), if a dented one."""
+    length = scene.bodies[0].center_of_mass[2]
+    lowest, highest, *_ = heavy_top_rates.turning_points(*arguments(scene))
+    height = motion.position[:, 0, 2] - length * (lowest + highest) / 2
+    return np.asarray(height - 1j * motion.velocity[:, 0, 2] / nutation_frequency(scene))
