@@ -1,4 +1,4 @@
-"""The command line: ``poinsot run | list | report | doctor``."""
+"""The command line: ``poinsot run | list | report | explain | doctor``."""
 
 import shlex
 import sys
@@ -120,6 +120,21 @@ def list_(*, json: Annotated[bool, Parameter(negative="")] = False) -> int:
     from . import listing
 
     print(listing.as_json() if json else listing.as_text())  # noqa: T201 (this is what the command is for)
+    return 0
+
+
+@app.command
+def explain(number: int | None = None) -> int:
+    """List the known deviations, or tell all about one: its reason, its size now, a script that shows it.
+
+    Parameters
+    ----------
+    number
+        Which one; all of them are listed if it is not said.
+    """
+    from .explain import explained, listed
+
+    print(listed() if number is None else explained(number))  # noqa: T201 (this is what the command is for)
     return 0
 
 

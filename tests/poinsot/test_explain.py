@@ -1,0 +1,69 @@
+"""Known deviations explained, and scripts that show a cell without Poinsot: run as their reader would."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from poinsot.adapters import registry
+from poinsot.adapters.simulate import simulate
+from poinsot.scenarios.registry import scenes
+
+from poinsot import reproduction
+from poinsot.command_line import main
+
+
+def ends(scene, engine, scheme, dt):
+    """Numbers that the cell's script prints when it is run by itself, and the script."""
+    text = reproduction.script(scenes()[scene], registry.load(engine), scheme, dt)
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    printed = done.stdout.split("2025", 1)[-1] if "build time" in done.stdout else done.stdout
+    return text, printed
+
+
+@pytest.mark.parametrize(
+    ("scene", "engine", "scheme"),
+    [
+        ("free_symmetric_top[oblate]", "mujoco", "RK4"),
+        ("heavy_top[fast]", "mujoco", "Euler"),
+        ("co2_chain[mixture]", "mujoco", "Euler"),
+        ("free_symmetric_top[oblate]", "pybullet", "maximal coordinates"),
+        ("heavy_top[fast]", "pybullet", "reduced coordinates"),
+        ("euler_angles[general]", "pybullet", "reduced coordinates"),
+    ],
+)
+def test_a_script_of_the_engine_alone_ends_where_the_cell_does(scene, engine, scheme):
+    described, kind = scenes()[scene], registry.load(engine)
+    scheme = registry.scheme_of(kind, scheme)
+    text, printed = ends(scene, engine, scheme, described.dt)
+    assert "poinsot" not in text
+    motion, _ = simulate(described, kind, scheme, described.dt)
+    numbers = [float(x) for x in re.findall(r"[-+]?\d+\.\d*(?:e[-+]?\d+)?", printed)]
+    # numpy prints eight digits, PyBullet's links are read in full.
+    for wanted in (motion.position[-1, -1], motion.quaternion[-1, -1]):
+        size = len(wanted)
+        found = [np.array(numbers[i : i + size]) for i in range(len(numbers) - size + 1)]
+        assert min(min(np.abs(f - wanted).max(), np.abs(f + wanted).max()) for f in found) < 1e-7
+
+
+def test_a_scene_that_takes_many_calls_to_set_up_is_shown_with_poinsot(capfd):
+    kind = registry.load("pinocchio")
+    text, printed = ends("co2_chain[mixture]", "pinocchio", registry.scheme_of(kind, "RKMK4"), 0.02)
+    assert "import poinsot" in text
+    assert "truth position pass" in printed
+
+
+def test_every_known_deviation_is_listed_and_the_first_is_explained(capsys):
+    assert main(["explain"]) == 0
+    assert re.match(r"1\. pybullet maximal coordinates in ", capsys.readouterr().out)
+    assert main(["explain", "1"]) == 0
+    text = capsys.readouterr().out
+    assert re.search(r"^Granted: up to .* of pybullet ==3\.2\.7\.$", text, re.MULTILINE)
+    assert re.search(r"^Now: [\d.e-]+ .* allowed", text, re.MULTILINE)
+    assert "p.stepSimulation()" in text
+
+
+def test_a_number_that_no_record_has_is_refused(capsys):
+    assert main(["explain", "999"]) == 2
+    assert "expected a number from 1 to" in capsys.readouterr().err
