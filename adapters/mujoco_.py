@@ -1,6 +1,7 @@
 """MuJoCo, built by MjSpec: bodies and joints only, and contact where a scene has contacts."""
 
 import warnings
+from contextlib import nullcontext
 from typing import Any, ClassVar
 
 import mujoco
@@ -12,6 +13,7 @@ from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
 from .engine import EngineError, Scheme, Setup, State
 from .mujoco_contact import add_contacts, told
+from .mujoco_forces import Forces
 from .mujoco_mjcf import mjcf
 
 #: Where a joint's coordinates lie among MuJoCo's, whose quaternions are scalar-first.
@@ -75,12 +77,15 @@ class MuJoCo:
         self._model = _compiled(self._spec, scene.full_name)
         _keep_small_offsets(self._model)
         self._locate([body.id for body in bodies], [joint.id for joint in joints])
+        forces = Forces(mujoco, scene, self._bodies) if scene.forces else None
+        self._forced = forces.acting if forces else nullcontext
         self._data, self._scratch = mujoco.MjData(self._model), mujoco.MjData(self._model)
         self._data.qpos[self._q], self._data.qvel[self._v] = scene.q0, scene.v0
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps in MuJoCo's own loop."""
-        mujoco.mj_step(self._model, self._data, nstep=n)
+        with self._forced():
+            mujoco.mj_step(self._model, self._data, nstep=n)
         self._steps += n
 
     def state(self) -> State:
@@ -126,7 +131,8 @@ class MuJoCo:
         data.qpos[self._q], data.qvel[self._v] = q, v
         # Under "discrete" qacc is the change of velocity over a whole step.
         chosen, model.opt.integrator = model.opt.integrator, mujoco.mjtIntegrator.mjINT_EULER
-        mujoco.mj_forward(model, data)
+        with self._forced():
+            mujoco.mj_forward(model, data)
         model.opt.integrator = chosen
         return np.asarray(data.qacc_smooth[self._v])
 

@@ -12,6 +12,7 @@ from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
 from .engine import EngineError, Scheme, Setup, State
 from .pinocchio_contact import Contacts
+from .pinocchio_forces import joint_forces
 from .pinocchio_json import model_json
 from .pinocchio_schemes import Advance, Mechanism, implicit_gyroscopic, rkmk4, semi_implicit_euler
 
@@ -41,7 +42,7 @@ class Pinocchio:
         "integrators": "Poinsot's own: Pinocchio gives accelerations, and q ⊕ dq",
         "free bodies": "a translation and then a ball joint, with the velocity in world axes "
         "(a FreeFlyer's, in body axes, is another and worse scheme)",
-        "springs and dampers": "joint forces of ours, taken where the scheme takes its accelerations",
+        "springs, dampers and forces": "joint forces of ours, taken where the scheme takes its accelerations",
         "contacts": "points, normals and gaps are Poinsot's own; the impulses are those of Pinocchio's "
         "projected Gauss-Seidel solver, at the end of each step",
     }
@@ -147,6 +148,8 @@ class Pinocchio:
         for joint, i, j in zip(self._scene.scalar_joints, self._scalar_v, self._scalar_q, strict=True):
             self._pull[i, j], self._drag[i, i] = -joint.stiffness, -joint.damping
         force = _spring_force(self._pull, self._drag)
+        if self._scene.forces:
+            force = _sum(force, joint_forces(pin, model, self._scene, self._centres))
 
         # Where a free body is and how fast it flies changes nothing in M or ∂f/∂v but, as Pinocchio takes
         # them in world axes, their rounding: look at them at the origin, at rest.
@@ -247,3 +250,9 @@ def _spring_force(pull: Array, drag: Array) -> Callable[[Array, Array], Array]:
     if drag.any():
         return lambda q, v: dot(pull, q, tau) + dot(drag, v)
     return (lambda q, v: dot(pull, q, tau)) if pull.any() else (lambda q, v: tau)
+
+
+def _sum(
+    one: Callable[[Array, Array], Array], other: Callable[[Array, Array], Array]
+) -> Callable[[Array, Array], Array]:
+    return lambda q, v: one(q, v) + other(q, v)

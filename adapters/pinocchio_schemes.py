@@ -14,12 +14,12 @@ from ..reference.checked import Array
 class Mechanism:
     """What a scheme needs to know of the system.
 
-    ``force(q, v)`` is that of springs and dampers (nv,); ``accelerate(q, v, force)`` gives v̇ (nv,);
-    ``integrate(q, dq)`` is q ⊕ dq; ``linearised(q, v)`` gives the mass matrix and −∂f/∂v of the whole
-    generalised force f = M v̇, (nv, nv) each and new at every call; ``balls`` are the first places in v
-    of the angular velocities whose coordinates are quaternions. ``touch(q, before, free)`` are the
-    velocities after contact, given those at the start of a step and those it would end with; ``None``
-    where nothing touches.
+    ``force(q, v)`` is that of springs, dampers and forces from outside (nv,); ``accelerate(q, v, force)``
+    gives v̇ (nv,); ``integrate(q, dq)`` is q ⊕ dq; ``linearised(q, v)`` gives the mass matrix and −∂f/∂v
+    of the whole generalised force f = M v̇ but for that from outside, (nv, nv) each and new at every call;
+    ``balls`` are the first places in v of the angular velocities whose coordinates are quaternions.
+    ``touch(q, before, free)`` are the velocities after contact, given those at the start of a step and
+    those it would end with; ``None`` where nothing touches.
     """
 
     force: Callable[[Array, Array], Array]

@@ -20,6 +20,7 @@ from . import pybullet_limits as limits
 from . import pybullet_probes as probes
 from .c_output import caught
 from .engine import Scheme, Setup, State
+from .pybullet_forces import pushes
 from .pybullet_layout import Place, layout, of_ball, of_base, of_inertia
 from .pybullet_settings import SETTINGS
 from .pybullet_urdf import trees, urdf
@@ -80,10 +81,11 @@ class PyBullet:
         tried = probes.of_world(scene, self._loaded(self._bare).change)
         displaced = [self._response(i, probes.displaced(scene, i)) for i in numbers]
         resting = [self._response(i, probes.rest(scene)) for i in numbers]
-        change = self._loaded(probes.without(scene, "gravity")).change
-        tried |= probes.of_joints(scene, change, displaced, resting)
+        pulled = self._loaded(probes.without(scene, "gravity"))
+        tried |= probes.of_joints(scene, pulled.change, displaced, resting)
         if self._maximal and scene.contacts:
-            tried |= blows.of_contacts(scene, self._loaded(replace(scene, gravity=(0, 0, 0))).change)
+            floating = replace(scene, gravity=(0, 0, 0), forces=())
+            tried |= blows.of_contacts(scene, self._loaded(floating).change)
         return Setup({**self._world.told(), **tried}, tuple(tried))
 
     def acceleration(self, q: Array, v: Array) -> Array:
@@ -93,8 +95,11 @@ class PyBullet:
         in maximal ones the limit of small steps, good to 1e-13 ω², ω the fastest of the scene. No contacts.
         """
         q, v = finite("q", q, (len(self._scene.q0),)), finite("v", v, (len(self._scene.v0),))
-        change = self._loaded(self._untouched).change
-        return probes.limit(change, q, v) if self._maximal else change(q, v, 1.0, 1)
+        pushed = self._loaded(self._untouched).change(q, v, 1.0, 1)
+        if not self._maximal:
+            return pushed
+        free = self._loaded(replace(self._untouched, forces=())).change
+        return probes.limit(free, q, v) + (pushed - free(q, v, 1.0, 1))
 
     def model_text(self) -> tuple[str, str]:
         """The model as URDF, with every digit; of several trees one document after the other."""
@@ -134,7 +139,7 @@ class _World:
         uids = {_load(client, scene, tree, maximal): tree for tree in trees(scene)}
         links = dict(named for uid in uids for named in _quieted(client, uid))
         self._at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
-        self._springs = self._at.springs
+        self._pushes = pushes(p, client, scene, self._at)
         self._pairs = contact.connect(p, client, scene, self._at.bodies) if scene.contacts else []
         self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
         frames = [_inertial_frame(client, *place) for place in self._at.bodies]
@@ -156,7 +161,7 @@ class _World:
 
     def advance(self, n: int) -> None:
         """Take ``n`` steps."""
-        if self._springs:
+        if self._pushes:
             self._pull(n)
             return
         # PyBullet applies joint damping once a call, and not once a step.
@@ -212,14 +217,11 @@ class _World:
             self._size = size
 
     def _pull(self, n: int) -> None:
-        """Take ``n`` steps, each after handing PyBullet the forces of the springs."""
-        read, push, step = p.getJointStates, p.setJointMotorControlArray, p.stepSimulation
-        client, torque = self.client, p.TORQUE_CONTROL
+        """Take ``n`` steps, each after handing PyBullet the forces of springs and from outside the joints."""
         for _ in range(n):
-            for uid, links, pulls in self._springs:
-                pulled = [k * state[0] for k, state in zip(pulls, read(uid, links, client), strict=True)]
-                push(uid, links, torque, forces=pulled, physicsClientId=client)
-            step(client)
+            for push in self._pushes:
+                push()
+            p.stepSimulation(self.client)
 
     def _bodies(self) -> tuple[Array, Array, Array, Array]:
         """Positions, quaternions, velocities and ω of the bodies, shapes and frames as in ``State``."""

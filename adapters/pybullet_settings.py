@@ -5,7 +5,7 @@ SETTINGS = {
     "velocity limit": "none (PyBullet's own default in reduced coordinates is 100)",
     "motors": "without force (PyBullet's own hold every joint)",
     "sleeping": "off",
-    "springs": "joint forces of ours at the start of each step; PyBullet has none",
-    "batches": "without springs, dampers and contacts up to 256 steps in one call, by numSubSteps",
+    "springs and forces": "ours, handed over at the start of each step; PyBullet has neither",
+    "batches": "without springs, dampers, forces and contacts up to 256 steps in one call, by numSubSteps",
     "contacts": "200 iterations, no tolerance, no correction of depths, no least speed of a bounce",
 }

@@ -33,10 +33,11 @@ def kinetic_energy(scene: Scene, motion: Trajectory) -> Array:
 
 
 def potential_energy(scene: Scene, motion: Trajectory) -> Array:
-    """−Σ m g·r + ½ Σ k q², (n,) [J]."""
+    """−Σ m g·r + ½ Σ k q², and that of the scene's forces, (n,) [J]."""
     weight = -np.einsum("b,nbi,i->n", masses(scene), motion.position, np.array(scene.gravity))
     stiffness = np.array([joint.stiffness for joint in scene.scalar_joints])
-    return np.asarray(weight + (motion.joint_position**2 @ stiffness) / 2)
+    outer = sum(force.potential(scene.bodies, motion.position) for force in scene.forces)
+    return np.asarray(weight + (motion.joint_position**2 @ stiffness) / 2 + outer)
 
 
 def energy(scene: Scene, motion: Trajectory) -> Array:

@@ -12,6 +12,7 @@ from ..reference.checked import Array, finite, positive
 from ..reference.errors import InputError
 from .body import WIDTHS, Body, Joint, Vector
 from .contact import Contact, Rim
+from .forces import Force
 from .observables import Observable
 from .pictures import Picture
 from .trajectory import Trajectory
@@ -30,6 +31,7 @@ FEATURES: dict[str, str] = {
     "contact": "contact",
     "friction": "friction in contacts",
     "rim": "contact on the rim of a disc",
+    "force": "forces that depend on where bodies are or how fast",
 }
 
 #: What no scene gets unless a later feature names it, in words for the report.
@@ -49,6 +51,7 @@ class Scene:
     its twin name where that needs others, to the steps over which its order is measured.
 
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
+    ``forces`` act at the centres of mass, beside gravity and what joints do.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
@@ -76,6 +79,7 @@ class Scene:
     errors: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     scheme_motion: SchemeMotion | None = None
     contacts: tuple[Contact, ...] = ()
+    forces: tuple[Force, ...] = ()
 
     def __post_init__(self) -> None:
         try:
@@ -111,6 +115,7 @@ class Scene:
             "contact": bool(self.contacts),
             "friction": any(contact.friction for contact in self.contacts),
             "rim": any(isinstance(contact.shape, Rim) for contact in self.contacts),
+            "force": bool(self.forces),
         }
         return frozenset(found | {name for name, present in optional.items() if present})
 
@@ -196,6 +201,8 @@ class Scene:
                     f"body {body.name!r} parent: got {body.parent!r}, expected a body listed before it"
                 )
         self._check_contacts()
+        for force in self.forces:
+            force.acting(self.bodies)  # raises for a body that is not there
         nq, nv = (sum(WIDTHS[joint.kind][side] for joint in self.joints) for side in (0, 1))
         q0 = finite("q0", self.q0, (nq,))
         finite("v0", self.v0, (nv,))

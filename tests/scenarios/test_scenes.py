@@ -7,6 +7,7 @@ import pytest
 from poinsot.adapters.declared import declared
 from poinsot.reference import equations_of_motion, quaternions
 from poinsot.scenarios import co2_chain
+from poinsot.scenarios.forces import forces_on
 from poinsot.scenarios.registry import scenes
 from poinsot.scenarios.scene import FEATURES, NEVER_BUILT
 from scipy.integrate import solve_ivp
@@ -33,11 +34,14 @@ def integrated(scene, links, t):
         len(scene.q0),
     )
 
+    pushed = forces_on(scene.bodies, scene.forces)
+
     def rates(_, state):
         q, v = state[:nq].copy(), state[nq:]
         for at in places:
             q[at][-4:] /= np.linalg.norm(q[at][-4:])
-        a = equations_of_motion.accelerations(links, q, v, scene.gravity)
+        forces = pushed(*(part[0] for part in equations_of_motion.link_motion(links, q[None], v[None])[::2]))
+        a = equations_of_motion.accelerations(links, q, v, scene.gravity, forces=forces)
         return np.concatenate([equations_of_motion.coordinate_rates(links, q, v), a])
 
     start = np.concatenate([scene.q0, scene.v0])
