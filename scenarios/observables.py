@@ -154,12 +154,12 @@ def vertical_angular_momentum() -> Observable:
     )
 
 
-def axial_angular_momentum() -> Observable:
-    """I3 ω3 of the first body: p_γ of a symmetric top."""
+def axial_angular_momentum(body: int = 0) -> Observable:
+    """I3 ω3 of a body: p_γ of a symmetric top."""
     return invariant(
         "p_gamma",
         "kg m²/s",
-        lambda scene, a: scene.bodies[0].inertia_array[2, 2] * a.omega[:, 0, 2],
+        lambda scene, a: scene.bodies[body].inertia_array[2, 2] * a.omega[:, body, 2],
         mechanics.angular_momentum_scale,
     )
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from poinsot.reference import equations_of_motion, quaternions
+from poinsot.reference import equations_of_motion, euler_angles, hanging_gyroscope_motion, quaternions
 from poinsot.reference.equations_of_motion import Joint, Link
 from poinsot.reference.errors import InputError
 from poinsot.reference.hanging_gyroscope import Gyroscope, Rope, accelerations, small_rates, steady_precession
@@ -200,3 +200,26 @@ def test_what_cannot_be_is_refused():
         small_rates(Rope(0.0), WHEEL, G, 1.0)
     with pytest.raises(InputError, match="rope: got"):
         at(rope=Rope(0.0))
+
+
+def test_the_integrated_motion_keeps_a_steady_precession():
+    Omega, t = 3.0, np.linspace(0.0, 0.5, 6)
+    chi, omega3 = steady_precession(ROD, WHEEL, G, 1.9, Omega)
+    tilts = np.array([np.pi - chi, 1.9])
+    rates = np.stack(
+        [np.full(2, Omega), np.zeros(2), np.array([0.0, omega3]) - Omega * np.cos(tilts)], axis=-1
+    )
+    angles = np.stack([np.full(2, 0.7), tilts, [0.5, -0.4]], axis=-1) + t[:, None, None] * rates
+    q, omega = euler_angles.zyz_attitude(angles), euler_angles.zyz_omega(angles, rates)
+    found_q, found_omega = hanging_gyroscope_motion.motion(ROD, WHEEL, G, q[0], omega[0], t)
+    turn = quaternions.rotation_vector(quaternions.product(quaternions.conjugate(q), found_q))
+    # A hundred times the tolerance of 1e-12 a second is what it promises.
+    assert np.abs(turn).max() < 1e-10
+    assert np.abs(found_omega - omega).max() < 1e-10 * omega3
+
+
+@pytest.mark.parametrize("t", [[0.2, 0.1], [-0.1, 0.2]])
+def test_times_of_the_integrated_motion_ascend_from_0(t):
+    q = np.tile([0.0, 0.0, 0.0, 1.0], (2, 1))
+    with pytest.raises(InputError, match="ascending"):
+        hanging_gyroscope_motion.motion(ROD, WHEEL, G, q, np.zeros((2, 3)), t)
