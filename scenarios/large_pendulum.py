@@ -8,9 +8,9 @@ from functools import cache
 
 import numpy as np
 
-from ..reference import plane_pendulum, quaternions
+from ..reference import plane_pendulum
 from ..reference.checked import Array
-from . import observables, pictures
+from . import hinged, observables, pictures
 from .body import Body, Joint, diagonal
 from .scene import Scene
 from .trajectory import Trajectory
@@ -24,14 +24,7 @@ AXIS, HINGE = (0.6, 0.8, 0.0), (0.3, -0.2, 0.1)
 
 def _truth(scene: Scene, t: Array) -> Trajectory:
     theta, rate = plane_pendulum.motion(G, LENGTH, scene.q0[0], scene.v0[0], t)
-    axis, arm = np.array(AXIS), np.array(scene.bodies[0].center_of_mass)
-    q = quaternions.from_rotation_vector(theta[:, None] * axis)
-    omega = rate[:, None] * axis
-    position = np.array(HINGE) + quaternions.rotated(q, arm)
-    velocity = quaternions.rotated(q, np.cross(omega, arm))
-    return Trajectory(
-        t, position[:, None], q[:, None], velocity[:, None], omega[:, None], theta[:, None], rate[:, None]
-    )
+    return hinged.motion(scene.bodies, t, theta[:, None], rate[:, None])
 
 
 @cache
@@ -50,28 +43,6 @@ def _swinging(scene: Scene, motion: Trajectory) -> Array:
     if scene.variant == "round":
         return np.asarray(np.exp(1j * angle))
     return np.asarray(angle - 1j * speed / np.sqrt(G / LENGTH))
-
-
-def _twist(scene: Scene, motion: Trajectory) -> Array:
-    """What the attitude and the whole angle of the hinge, turns and all, differ from the axis' own."""
-    turn = quaternions.from_rotation_vector(motion.joint_position * np.array(AXIS))
-    attitude = quaternions.product(quaternions.conjugate(turn), motion.quaternion[:, 0])
-    return np.column_stack([quaternions.rotation_vector(attitude), motion.omega[:, 0] - _spin(motion)])
-
-
-def _spin(motion: Trajectory) -> Array:
-    return np.asarray(motion.joint_velocity * np.array(AXIS))
-
-
-def _angle() -> observables.Observable:
-    """The hinge's angle, whole turns kept."""
-    return observables.Observable(
-        "hinge angle",
-        "rad",
-        "state",
-        lambda scene, a, b: np.asarray(a.joint_position - b.joint_position),
-        lambda scene, b: float(np.abs(b.joint_position).max()),
-    )
 
 
 def _pendulum(variant: str, summary: str, start: tuple[float, float]) -> Scene:
@@ -101,12 +72,10 @@ def _pendulum(variant: str, summary: str, start: tuple[float, float]) -> Scene:
             observables.omega(),
             observables.position(),
             observables.velocity(),
-            _angle(),
+            hinged.angle(),
             observables.rate("frequency", _swinging, _rate),
             observables.energy(),
-            observables.invariant(
-                "hinge residual", "1", _twist, lambda scene, b: float(np.abs(b.omega).max())
-            ),
+            hinged.residual(),
         ),
         pictures=(pictures.against_time("Angle", "θ [rad]", lambda scene, m: m.joint_position[:, 0]),),
         ladders={1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)},
