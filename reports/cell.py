@@ -68,11 +68,12 @@ class Cell:
 
         Every step commits an ε of the observable's size in no particular direction, which then
         grows as a kicked motion departs from the truth: three standard deviations of that walk,
-        and ten ε for reading a sample and for the truth itself.
+        and ten ε for reading a sample and for the truth itself. What grows evenly, as the place of
+        a body that flies straight, is rounded to the same side step after step: half an ε each.
         """
-        scale = observable.scale(self.scene, self.truth)
-        walk = 3 * np.sqrt(self.provenance.steps) * max(1.0, growth(self.scene))
-        return float(EPSILON * scale * (10 + walk))
+        scale, steps = observable.scale(self.scene, self.truth), self.provenance.steps
+        walk = 3 * np.sqrt(steps) * max(1.0, growth(self.scene))
+        return float(EPSILON * scale * (10 + steps / 2 + walk))
 
     def verdict(
         self,

@@ -1,4 +1,4 @@
-"""One rigid body that nothing acts on: its exact motion, whatever its tensor and wherever its centre."""
+"""One rigid body that nothing turns: its exact motion, whatever its tensor and wherever its centre."""
 
 import numpy as np
 
@@ -9,14 +9,15 @@ from .trajectory import Trajectory, of_one_body
 
 
 def truth(scene: Scene, t: Array) -> Trajectory:
-    """Motion of the scene's one body, on a free joint, at the times ``t`` (n,) [s]."""
+    """Motion of the scene's one body, on a free joint, at the times ``t`` (n,) [s]; it may fall."""
     body = scene.bodies[0]
     q0, v0 = np.array(scene.q0), np.array(scene.v0)
     q, omega = turning(body.inertia_array, q0[3:], v0[3:], t)
     centre = np.array(body.center_of_mass)
     velocity = v0[:3] + quaternions.rotated(q0[3:], np.cross(v0[3:], centre))
-    position = q0[:3] + quaternions.rotated(q0[3:], centre) + np.outer(t, velocity)
-    return of_one_body(t, position, q, np.broadcast_to(velocity, position.shape), omega)
+    fallen = np.outer(t, scene.gravity)
+    position = q0[:3] + quaternions.rotated(q0[3:], centre) + t[:, None] * (velocity + fallen / 2)
+    return of_one_body(t, position, q, velocity + fallen, omega)
 
 
 def turning(tensor: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:

@@ -1,6 +1,7 @@
 """At a finite step: as far from the truth as the scheme itself, and no further."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -128,11 +129,19 @@ def test_a_distance_that_is_no_number_fails(ahead, value):
         assert checked(replace(run, omega=omega), FREE)["omega"].status is Status.FAIL
 
 
+def test_a_straight_flight_is_rounded_to_the_same_side_step_after_step():
+    x, v, N = np.float64(0.6), np.float64(1.5 * 5e-4), 800
+    for _ in range(N):
+        x += v
+    drift = abs(float(x - (Fraction(0.6) + N * Fraction(1.5 * 5e-4))))
+    assert 3 * np.sqrt(N) * 2.2e-16 < drift < N / 2 * 2.2e-16
+
+
 def test_round_off_grows_with_the_steps_and_with_a_kick(ahead):
     few, many = (cell(ahead(FREE, dt), FREE) for dt in (4e-3, 4e-3 / 100))
     orientation, _, position = FREE.observables[:3]
-    grown = [made.round_off(orientation) for made in (few, many)]
-    # A walk of a hundred times as many steps goes ten times as far; reading a sample costs the same.
-    assert grown[1] / grown[0] == pytest.approx(10, rel=1e-2)
-    assert few.round_off(orientation) == pytest.approx(2.2e-16 * 3 * np.sqrt(2500) * 50, rel=0.02)
+    # The walk of a hundred times as many steps goes ten times as far, an even drift a hundred times.
+    for made, steps in ((few, 2500), (many, 250_000)):
+        expected = 2.2e-16 * (3 * np.sqrt(steps) * 50 + steps / 2)
+        assert made.round_off(orientation) == pytest.approx(expected, rel=0.02)
     assert few.round_off(position) / few.round_off(orientation) == pytest.approx(np.sqrt(14), rel=1e-9)
