@@ -1,8 +1,12 @@
-"""Contact in MuJoCo: shapes, the pairs that touch, and a solver set as hard as it goes.
+"""Contact in MuJoCo: shapes, the pairs that touch, and a solver set so that it does what was asked.
 
-MuJoCo's contacts are springs: over a step they take away the share ``IMPEDANCE`` of what would break
-them. With a damping of 1/dt that brings the velocity of a contact to 0 in one step, and with
-(1 + e)/dt to −e times what it was.
+MuJoCo's contacts are springs that take away a share of what would break them, the impedance. With a
+damping of 1/dt along the normal a contact's velocity is 0 after one step, and with (1 + e)/dt it is
+−e times what it was.
+
+What slides is lifted by μ times as much as friction gives way along the surface, as MuJoCo's friction is
+convex, and it hops where that is more than the share of its weight that it lies too deep by. So
+friction is given no damping, and some softness is left along the normal; across it next to none.
 """
 
 from collections.abc import Mapping
@@ -13,14 +17,14 @@ import numpy as np
 from ..scenarios.contact import Contact, Plane, Sphere
 from ..scenarios.scene import Scene
 
-#: The most that MuJoCo takes, at any depth: its own default changes over the first millimetre.
-IMPEDANCE = 0.9999
-#: No spring for a blow; MuJoCo takes 0 for its own format of other meaning.
-NO_SPRING = 1e-15
+#: Of a blow, and of a contact with friction; at any depth: MuJoCo's own change over the first millimetre.
+BLOW, ROUGH = 0.9999, 0.995
+#: No spring or damper; with a 0 MuJoCo would take the other number for something else.
+NOTHING = 1e-15
 #: Half the width and half the depth [m] of the box that stands for a plane that moves.
 WIDTH, DEPTH = 10.0, 0.5
-#: How much less friction gives way than the normal does; beyond 100 the solver finds no end.
-FRICTION_RATIO = 10.0
+#: How much less friction gives way than the normal does.
+FRICTION_RATIO = 1e4
 #: Thickness of the ellipsoid that stands for a rim, to its radius.
 THIN = 1e-3
 
@@ -34,12 +38,13 @@ def add_contacts(mujoco: Any, spec: Any, bodies: Mapping[str | None, Any], scene
         _add_shape(mujoco, bodies[contact.first], contact.shape, f"{number} first", 0.0)
         _add_shape(mujoco, bodies[contact.second], contact.against, f"{number} second", raised)
         pair = spec.add_pair(name=contact.name, geomname1=f"{number} first", geomname2=f"{number} second")
-        pair.condim = 3 if contact.friction else 1
         pair.friction[:2] = contact.friction
-        pair.solref = (
-            [-1 / dt**2, -1 / dt] if contact.friction else [-NO_SPRING, -(1 + contact.restitution) / dt]
-        )
-        pair.solimp[:2] = IMPEDANCE
+        if contact.friction:
+            pair.condim, pair.solimp[:2] = 3, ROUGH
+            pair.solref, pair.solreffriction = [-1 / dt**2, -1 / dt], [-NOTHING, -NOTHING]
+        else:
+            pair.condim, pair.solimp[:2] = 1, BLOW
+            pair.solref = [-NOTHING, -(1 + contact.restitution) / dt]
 
 
 def told(model: Any, scene: Scene) -> dict[str, float]:
@@ -56,7 +61,7 @@ def _settled(contact: Contact, scene: Scene, dt: float) -> float:
     """How deep [m] a body lies in what it rests on, so that it neither sinks nor is thrown up at first."""
     if not contact.friction:
         return 0.0
-    return (1 - IMPEDANCE) * float(np.linalg.norm(scene.gravity)) * dt**2
+    return (1 - ROUGH) * float(np.linalg.norm(scene.gravity)) * dt**2
 
 
 def _add_shape(mujoco: Any, body: Any, shape: Any, name: str, raised: float) -> None:

@@ -87,6 +87,7 @@ def _add_pairs(parent: Element, pairs: Iterable[Any]) -> None:
             condim=str(pair.condim),
             friction=_digits(pair.friction),
             solref=_digits(pair.solref),
+            solreffriction=_digits(pair.solreffriction),
             solimp=_digits(pair.solimp),
         )
 

@@ -21,7 +21,7 @@ from . import pybullet_probes as probes
 from .c_output import caught
 from .engine import Scheme, Setup, State
 from .pybullet_forces import pushes
-from .pybullet_layout import Place, layout, of_ball, of_base, of_inertia
+from .pybullet_layout import Place, inertial_frame, layout, of_ball, of_base, of_inertia
 from .pybullet_settings import SETTINGS
 from .pybullet_urdf import trees, urdf
 
@@ -142,12 +142,23 @@ class _World:
         self._pushes = pushes(p, client, scene, self._at)
         self._pairs = contact.connect(p, client, scene, self._at.bodies) if scene.contacts else []
         self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
-        frames = [_inertial_frame(client, *place) for place in self._at.bodies]
+        frames = [inertial_frame(p, client, *place) for place in self._at.bodies]
         self._center, self._axes = (np.array(part) for part in zip(*frames, strict=True))
         self._carried = np.vstack([self._axes, IDENTITY])
 
     def place(self, q: Array, v: Array) -> None:
         """Put everything at these coordinates, laid out as the scene's."""
+        if self.scene.contacts:
+            # In maximal coordinates the inertia that a blow meets is turned to an attitude only by a step.
+            self._put(q, v)
+            dt, self.dt, self._size = self.dt, contact.INSTANT, 0
+            self._batch(1)
+            p.stepSimulation(self.client)
+            self.dt, self._size = dt, 0
+            self._batch(1)
+        self._put(q, v)
+
+    def _put(self, q: Array, v: Array) -> None:
         for body, uid, at_q, at_v in self._at.free:
             center, axes = self._center[body], self._axes[body]
             position, turn, velocity, omega = of_base(q[at_q], v[at_v], center, axes)
@@ -287,14 +298,3 @@ def _quieted(client: int, uid: int) -> Iterator[tuple[str, Place]]:
         elif kind != p.JOINT_FIXED:
             p.setJointMotorControl2(uid, link, p.VELOCITY_CONTROL, force=0, physicsClientId=client)
         yield name.decode(), (uid, link)
-
-
-def _inertial_frame(client: int, uid: int, link: int) -> tuple[Array, Array]:
-    """Centre of mass (3,) and turn (4,) to the principal axes in a link's frame, right after loading.
-
-    A base that was put at the origin is where its inertial frame is in its own; ``getDynamicsInfo``
-    would tell of memory never written in maximal coordinates.
-    """
-    base = p.getBasePositionAndOrientation(uid, client)
-    frame = base if link < 0 else p.getLinkState(uid, link, 0, 0, client)[2:4]
-    return np.array(frame[0]), np.array(frame[1])

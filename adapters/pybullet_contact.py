@@ -23,6 +23,8 @@ SOLVER = {
     "numSolverIterations": 200, "solverResidualThreshold": 0, "contactERP": 0, "erp": 0, "frictionERP": 0,
     "contactSlop": 0, "restitutionVelocityThreshold": 0,
 }  # fmt: skip
+#: A step [s] in which nothing moves.
+INSTANT = 1e-12
 
 
 def connect(p: Any, client: int, scene: Scene, places: Sequence[Place]) -> list[tuple[Place, Place]]:

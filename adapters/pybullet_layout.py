@@ -120,6 +120,17 @@ def of_inertia(
     return {f"body/{name}/mass": mass, f"body/{name}/center_of_mass": center, f"body/{name}/inertia": inertia}
 
 
+def inertial_frame(p: Any, client: int, uid: int, link: int) -> tuple[Array, Array]:
+    """Centre of mass (3,) and turn (4,) to the principal axes in a link's frame, right after loading.
+
+    A base that was put at the origin is where its inertial frame is in its own; ``getDynamicsInfo``
+    would tell of memory never written in maximal coordinates.
+    """
+    base = p.getBasePositionAndOrientation(uid, client)
+    frame = base if link < 0 else p.getLinkState(uid, link, 0, 0, client)[2:4]
+    return np.array(frame[0]), np.array(frame[1])
+
+
 def _by_tree(pairs: Iterable[tuple[int, int]]) -> dict[int, list[int]]:
     found: dict[int, list[int]] = {}
     for uid, number in pairs:

@@ -75,6 +75,25 @@ class Cell:
         walk = 3 * np.sqrt(steps) * max(1.0, growth(self.scene))
         return float(EPSILON * scale * (10 + steps / 2 + walk))
 
+    def floor(self, observable: Observable) -> float:
+        """What rounding, and contacts that give way in this engine, may add up to in ``observable``."""
+        share = self.softness
+        return self.round_off(observable) + (
+            share * observable.scale(self.scene, self.truth) if share else 0.0
+        )
+
+    @property
+    def softness(self) -> float:
+        """Share of an observable's size by which contacts that give way in this engine may change it."""
+        soft = self.scene.soft.get(self.provenance.engine)
+        return soft.share if soft else 0.0
+
+    @property
+    def granted(self) -> str:
+        """Why more than round-off is granted, to end a message with; or nothing."""
+        soft = self.scene.soft.get(self.provenance.engine)
+        return f"; {soft.share:.2g} of its size is granted as well: {soft.reason}" if soft else ""
+
     def verdict(
         self,
         check: str,

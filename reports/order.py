@@ -64,7 +64,7 @@ def fit(dts: Array, errors: Array) -> Fit:
 def _order(cells: Sequence[Cell], observable: Observable) -> Verdict:
     errors = np.array([cell.error(observable) for cell in cells])
     dts = np.array([cell.provenance.dt for cell in cells])
-    floors = np.array([cell.round_off(observable) for cell in cells])
+    floors = np.array([cell.floor(observable) for cell in cells])
     finest, declared = cells[-1], cells[0].provenance.order
     if np.all(errors <= floors):
         return _exact(cells, observable)
@@ -88,7 +88,7 @@ def _exact(cells: Sequence[Cell], observable: Observable) -> Verdict:
     """No error at any step: right only where the scheme has none, and else not from an integration."""
     finest, steps = cells[-1], f"exact to round-off at all {len(cells)} steps"
     own, coarse = max((truth.own_error(cell, observable) or 0.0, cell.provenance.dt) for cell in cells)
-    if own <= ABOVE * finest.round_off(observable):
+    if own <= ABOVE * finest.floor(observable):
         message = f"{steps}: there is no order to measure"
         return finest.verdict("order", observable.name, Status.PASS, message)
     message = (
@@ -104,7 +104,7 @@ def _limit(cells: Sequence[Cell], observable: Observable) -> Verdict:
     dts = [cell.provenance.dt for cell in cells]
     differences = [observable.difference(c.scene, c.trajectory, c.truth) for c in cells]
     limit, previous = extrapolated(dts, differences, order)
-    noise = max(cell.round_off(observable) for cell in cells)
+    noise = max(cell.floor(observable) for cell in cells)
     # What the last step of the extrapolation still changed bounds what the next one would.
     last_change = float(np.max(np.linalg.norm(limit - previous, axis=1)))
     raw = finest.error(observable)

@@ -42,8 +42,8 @@ def _judged(cell: Cell, observable: Observable) -> list[Verdict]:
         distances = observable.distance(cell.scene, cell.trajectory, cell.predicted)
         verdicts.append(
             cell.compared(
-                "truth", observable, distances, cell.round_off(observable),
-                "distance from the scheme's own exact motion; only round-off is allowed",
+                "truth", observable, distances, cell.floor(observable),
+                f"distance from the scheme's own exact motion; only round-off is allowed{cell.granted}",
                 name=f"{observable.name}, scheme's own",
             )
         )  # fmt: skip
@@ -52,16 +52,16 @@ def _judged(cell: Cell, observable: Observable) -> list[Verdict]:
 
 def _allowed(cell: Cell, observable: Observable) -> tuple[float, str] | None:
     """Largest distance allowed, and why."""
-    own, floor = own_error(cell, observable), cell.round_off(observable)
+    own, floor = own_error(cell, observable), cell.floor(observable)
     if own is None:
         return None
     if cell.predicted is not None:
         reason = "the scheme's own error, predicted in closed form, and round-off are allowed"
-        return own * (1 + 1e-6) + floor, f"{_WORDS[observable.kind]}; {reason}"
+        return own * (1 + 1e-6) + floor, f"{_WORDS[observable.kind]}; {reason}{cell.granted}"
     p = cell.provenance
     constant = cell.scene.error_constant(p.twin, observable)
     reason = f"{MARGIN} × {constant:.3g}·dt^{p.order}, the scheme's own error as recorded, and round-off"
-    return MARGIN * own + floor, f"{_WORDS[observable.kind]}; {reason} are allowed"
+    return MARGIN * own + floor, f"{_WORDS[observable.kind]}; {reason} are allowed{cell.granted}"
 
 
 _WORDS = {

@@ -55,7 +55,9 @@ def _judged(cell: Cell, others: Sequence[Cell], allowed: float, known: Iterable[
     message = (
         f"farthest from its twin {name} in {observable}, relative to its size; "
         f"1e-12 + 1e-13·A is allowed, A = {growth(cell.scene):.3g} being the growth of a kick"
+        f"{cell.granted or other.granted}"
     )
+    allowed += cell.softness + other.softness
     status = Status.PASS if measured <= allowed else Status.FAIL
     others_own = other.verdict("twin", "state", status, message, measured)
     reasons = [d.reason for d in known if d.applies(others_own) and measured <= d.bound]

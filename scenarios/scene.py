@@ -41,6 +41,22 @@ Truth = Callable[["Scene", Array], Trajectory]
 SchemeMotion = Callable[["Scene", str, float, Array], Trajectory | None]
 
 
+@dataclass(frozen=True)
+class Softness:
+    """How far an engine's model of contact may take it from the motion asked for, and why.
+
+    ``share`` is of the size of each observable; ``reason`` says what gives way, and what was measured.
+    """
+
+    share: float
+    reason: str
+
+    def __post_init__(self) -> None:
+        positive("softness share", self.share)
+        if not self.reason:
+            raise InputError("softness: got no reason, expected what gives way and what was measured")
+
+
 @dataclass(frozen=True, eq=False)
 class Scene:
     """One system, one set of parameters, one initial state: immutable and known to no engine.
@@ -51,6 +67,7 @@ class Scene:
     its twin name where that needs others, to the steps over which its order is measured.
 
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
+    ``soft`` says of engines, by name, how far their contacts give way: granted beside round-off.
     ``forces`` act at the centres of mass, beside gravity and what joints do.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
@@ -79,6 +96,7 @@ class Scene:
     errors: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     scheme_motion: SchemeMotion | None = None
     contacts: tuple[Contact, ...] = ()
+    soft: Mapping[str, Softness] = field(default_factory=dict)
     forces: tuple[Force, ...] = ()
 
     def __post_init__(self) -> None:
@@ -172,7 +190,7 @@ class Scene:
 
     def as_json(self) -> str:
         """The scene as JSON, stable from run to run: what the log keeps and a reader compares."""
-        skipped = {"truth", "observables", "pictures", "scheme_motion", "errors", "ladders"}
+        skipped = {"truth", "observables", "pictures", "scheme_motion", "errors", "ladders", "soft"}
         plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
         plain["observables"] = [observable.name for observable in self.observables]
         return json.dumps(plain, default=lambda part: part.__dict__, sort_keys=True)

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from fnmatch import fnmatchcase
 
 import pytest
 from poinsot.adapters.declared import declared
@@ -153,11 +154,14 @@ def test_an_entry_that_cannot_be_is_refused_by_number_and_fault(line, instead, s
 def test_the_entries_that_ship_speak_of_what_there_is():
     schemes = {(engine.name, scheme.name) for engine in declared() for scheme in engine.schemes}
     for entry in deviations.recorded():
-        assert (entry.engine, entry.scheme) in schemes
+        assert any(engine == entry.engine and fnmatchcase(name, entry.scheme) for engine, name in schemes)
         assert entry.scene in scenes()
         assert len(entry.reason) > 40
         assert entry.versions.startswith("==")  # measured in one version, and known of no other
-        assert 0 < entry.bound < 1e-3
+        # Rounding is small; a wrong friction is not, and has no order: then nothing else may be granted.
+        assert (
+            0 < entry.bound < ({"order": 1.5}.get(entry.check, 0.1) if "friction" in entry.reason else 1e-3)
+        )
 
 
 def test_of_a_ladder_run_in_part_nothing_is_taken_for_gone_or_unmatched():
