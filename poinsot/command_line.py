@@ -1,4 +1,4 @@
-"""The command line: ``poinsot run | list | report | explain | doctor``."""
+"""The command line: ``poinsot run | list | report | compare | explain | doctor``."""
 
 import shlex
 import sys
@@ -121,6 +121,31 @@ def list_(*, json: Annotated[bool, Parameter(negative="")] = False) -> int:
 
     print(listing.as_json() if json else listing.as_text())  # noqa: T201 (this is what the command is for)
     return 0
+
+
+@app.command
+def compare(old: Path, new: Path) -> int:
+    """Tell what changed between two runs: verdicts, errors, versions, and run times on one machine.
+
+    Ends with 1 if anything got worse, is missing, or has another error.
+
+    Parameters
+    ----------
+    old
+        What `poinsot run` wrote, or its results.json.
+    new
+        Another such folder or file.
+    """
+    from .reports import comparison, results
+
+    files = [path / "results.json" if path.is_dir() else path for path in (old, new)]
+    for path in files:
+        if not path.is_file():
+            raise InputError(f"compare: got {path}, which is not there; expected what `poinsot run` wrote")
+    before, after = map(results.read, files)
+    found = comparison.compared(before, after)
+    print(comparison.as_text(found))  # noqa: T201 (this is what the command is for)
+    return 0 if found.same else 1
 
 
 @app.command

@@ -177,6 +177,7 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
         "unit": observable.unit,
         "error": _finite(float(distances.max())),
         "error_final": _finite(float(distances[-1])),
+        "round_off": _finite(cell.round_off(observable)),
         "error_rms": _finite(float(np.sqrt(np.mean(distances**2)))),
     }
 

@@ -191,3 +191,20 @@ def gone(group, patience=15.0):
             return True
         time.sleep(0.1)
     return False
+
+
+def test_compare_ends_with_0_if_nothing_changed_with_1_if_an_error_did_and_with_2_without_a_run(
+    tmp_path, capsys
+):
+    out = tmp_path / "old"
+    assert main(["run", TOP, "--engine", "mujoco", "--scheme", "RK4", "--no-timing", "--out", str(out)]) == 0
+    assert main(["compare", str(out), str(out / "results.json")]) == 0
+    found = json.loads((out / "results.json").read_text())
+    row = next(row for row in found["work_precision"] if row["observable"] == "orientation")
+    row["error"] *= 3
+    other = tmp_path / "new.json"
+    other.write_text(json.dumps(found))
+    assert main(["compare", str(out), str(other)]) == 1
+    assert "error of orientation" in capsys.readouterr().out
+    assert main(["compare", str(out), str(tmp_path / "nothing")]) == 2
+    assert "which is not there" in capsys.readouterr().err
