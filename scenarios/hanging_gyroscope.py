@@ -25,7 +25,7 @@ CHI, OMEGA3 = 0.18015475683581866, 13.244642896101297
 TILTS = (np.pi - CHI, BETA)
 
 
-def system() -> tuple[hanging_gyroscope.Rope, hanging_gyroscope.Gyroscope]:
+def system() -> "tuple[hanging_gyroscope.Rope, hanging_gyroscope.Gyroscope]":
     """Rope and gyroscope as the reference has them."""
     rope = hanging_gyroscope.Rope(LENGTH, ROPE * (LENGTH**2 / 3 + RADIUS**2 / 4), ROPE * LENGTH / 2)
     return rope, hanging_gyroscope.Gyroscope(WHEEL, ARM, (ACROSS + WHEEL * ARM**2, AXIAL))

@@ -193,9 +193,7 @@ def gone(group, patience=15.0):
     return False
 
 
-def test_compare_ends_with_0_if_nothing_changed_with_1_if_an_error_did_and_with_2_without_a_run(
-    tmp_path, capsys
-):
+def test_compare_ends_with_0_if_nothing_changed_and_with_1_if_an_error_did(tmp_path, capsys):
     out = tmp_path / "old"
     assert main(["run", TOP, "--engine", "mujoco", "--scheme", "RK4", "--no-timing", "--out", str(out)]) == 0
     assert main(["compare", str(out), str(out / "results.json")]) == 0
