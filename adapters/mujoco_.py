@@ -55,9 +55,9 @@ class MuJoCo:
         "autoreset": "off: a state that is not finite stays what it is and is reported",
         "eulerdamp": "off: Euler takes dampers at the start of the step, as its twins do",
         "contact, constraint": "off, but where a scene has contacts",
-        "contacts": "a blow of impedance 0.9999 without spring, damped at (1 + e)/dt; a rough contact of "
-        "0.995 with a spring of 1/dt², damped at 1/dt, its friction undamped; elliptic cone, impratio 1e4, "
-        "tolerance 0",
+        "contacts": "impedance 0.9999; a blow without spring, damped at (1 + e)/dt; a rough contact with a "
+        "spring of 1/dt², damped at 1/dt; elliptic cone, impratio 10, tolerance 0; what slides: impedance "
+        "0.995, impratio 1e4, friction undamped",
         "sameframe": "none, where the inertial frame differs at all from the body's; "
         "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
     }

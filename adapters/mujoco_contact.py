@@ -5,8 +5,9 @@ damping of 1/dt along the normal a contact's velocity is 0 after one step, and w
 −e times what it was.
 
 What slides is lifted by μ times as much as friction gives way along the surface, as MuJoCo's friction is
-convex, and it hops where that is more than the share of its weight that it lies too deep by. So
-friction is given no damping, and some softness is left along the normal; across it next to none.
+convex, and it hops where that is more than the share of its weight that it lies too deep by. So where a
+scene lets something slide, friction is given no damping, some softness is left along the normal, and
+across it next to none. Where it is to hold, without a damping it would not follow a surface that turns.
 """
 
 from collections.abc import Mapping
@@ -17,14 +18,14 @@ import numpy as np
 from ..scenarios.contact import Contact, Plane, Sphere
 from ..scenarios.scene import Scene
 
-#: Of a blow, and of a contact with friction; at any depth: MuJoCo's own change over the first millimetre.
-BLOW, ROUGH = 0.9999, 0.995
+#: The impedance at any depth (MuJoCo's own changes over the first millimetre): the most it takes; of sliding.
+HARD, SLIDING = 0.9999, 0.995
 #: No spring or damper; with a 0 MuJoCo would take the other number for something else.
 NOTHING = 1e-15
 #: Half the width and half the depth [m] of the box that stands for a plane that moves.
 WIDTH, DEPTH = 10.0, 0.5
-#: How much less friction gives way than the normal does.
-FRICTION_RATIO = 1e4
+#: How much less friction gives way than the normal does, where it holds and where something slides.
+HOLDS, SLIDES = 10.0, 1e4
 #: Thickness of the ellipsoid that stands for a rim, to its radius.
 THIN = 1e-3
 
@@ -32,19 +33,22 @@ THIN = 1e-3
 def add_contacts(mujoco: Any, spec: Any, bodies: Mapping[str | None, Any], scene: Scene, dt: float) -> None:
     """Give a model its shapes and contacts, and its solver what it needs for them."""
     option = spec.option
-    option.cone, option.impratio, option.tolerance = mujoco.mjtCone.mjCONE_ELLIPTIC, FRICTION_RATIO, 0.0
+    option.cone, option.tolerance = mujoco.mjtCone.mjCONE_ELLIPTIC, 0.0
+    option.impratio = SLIDES if any(contact.slides for contact in scene.contacts) else HOLDS
     for number, contact in enumerate(scene.contacts):
         raised = _settled(contact, scene, dt)
         _add_shape(mujoco, bodies[contact.first], contact.shape, f"{number} first", 0.0)
         _add_shape(mujoco, bodies[contact.second], contact.against, f"{number} second", raised)
         pair = spec.add_pair(name=contact.name, geomname1=f"{number} first", geomname2=f"{number} second")
-        pair.friction[:2] = contact.friction
-        if contact.friction:
-            pair.condim, pair.solimp[:2] = 3, ROUGH
-            pair.solref, pair.solreffriction = [-1 / dt**2, -1 / dt], [-NOTHING, -NOTHING]
-        else:
-            pair.condim, pair.solimp[:2] = 1, BLOW
-            pair.solref = [-NOTHING, -(1 + contact.restitution) / dt]
+        _set(pair, contact, dt)
+
+
+def _set(pair: Any, contact: Contact, dt: float) -> None:
+    pair.friction[:2], pair.condim = contact.friction, 3 if contact.friction else 1
+    pair.solimp[:2] = SLIDING if contact.slides else HARD
+    pair.solref = [-1 / dt**2, -1 / dt] if contact.friction else [-NOTHING, -(1 + contact.restitution) / dt]
+    if contact.slides:
+        pair.solreffriction = [-NOTHING, -NOTHING]
 
 
 def told(model: Any, scene: Scene) -> dict[str, float]:
@@ -61,7 +65,8 @@ def _settled(contact: Contact, scene: Scene, dt: float) -> float:
     """How deep [m] a body lies in what it rests on, so that it neither sinks nor is thrown up at first."""
     if not contact.friction:
         return 0.0
-    return (1 - ROUGH) * float(np.linalg.norm(scene.gravity)) * dt**2
+    share = 1 - (SLIDING if contact.slides else HARD)
+    return share * float(np.linalg.norm(scene.gravity)) * dt**2
 
 
 def _add_shape(mujoco: Any, body: Any, shape: Any, name: str, raised: float) -> None:

@@ -49,6 +49,7 @@ class Contact:
     ``second`` is the body that ``against`` belongs to, ``None`` for the world. ``friction`` is
     Coulomb's μ, the same at rest and in motion; ``restitution`` e is Newton's, the speed of parting
     over the speed of meeting. A contact has one or the other: it is smooth, or it does not bounce.
+    ``slides`` says which of the two friction is there for, as some engines need to be told.
     """
 
     first: str
@@ -57,6 +58,7 @@ class Contact:
     against: Sphere | Plane
     friction: float = 0.0
     restitution: float = 0.0
+    slides: bool = False
 
     def __post_init__(self) -> None:
         not_negative(f"contact {self.name!r} friction", self.friction)

@@ -129,3 +129,13 @@ def test_where_nothing_touches_there_are_no_shapes(engine):
             assert ("contact" in text and "disable" in text and 'contact="disable"' in text) is (
                 engine.name == "mujoco" and not there
             )
+
+
+@pytest.mark.skipif(isinstance(engines()["mujoco"], str), reason="MuJoCo is not installed")
+def test_mujoco_hops_where_it_is_not_told_that_something_slides():
+    scene, engine = scenes()["rolling[slips]"], engines()["mujoco"]
+    hopping = replace(scene, contacts=(replace(scene.contacts[0], slides=False),))
+    for asked, least, most in ((scene, 0.0, 1e-12), (hopping, 1e-4, 1e-1)):
+        motion, _ = simulate(asked, engine, engine.schemes[0], 1e-3)
+        off = np.abs(motion.velocity - scene.truth(scene, motion.t).velocity).max()
+        assert least <= off < most
