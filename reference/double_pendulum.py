@@ -8,7 +8,7 @@ Source: Landau & Lifshitz, *Mechanics*, § 5, problem 1, and § 23, problem 2; T
 Mechanics*, § 11.4.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -84,13 +84,18 @@ def accelerations(links: Links, angles: npt.ArrayLike, rates: npt.ArrayLike) -> 
     Raises InputError if shapes do not fit. Source: Lagrange's equations of `energy`; Taylor § 11.4.
     """
     (th1, th2), (w1, w2) = _state(angles, rates)
+    return np.stack(in_any_precision(links, th1, th2, w1, w2), axis=-1)
+
+
+def in_any_precision(links: Links, th1: Any, th2: Any, w1: Any, w2: Any) -> tuple[Any, Any]:
+    """θ̈1 and θ̈2 of `accelerations`, in the precision of its numbers or arrays, which it does not check."""
     A, B, D, G1, G2, determinant = links
     cos, sin = np.cos(th1 - th2), np.sin(th1 - th2)
     push1 = -B * sin * w2**2 - G1 * np.sin(th1)
     push2 = B * sin * w1**2 - G2 * np.sin(th2)
     # AD − B² cos²Δ as a sum, so that light links below heavy ones lose nothing.
     whole = determinant + (B * sin) ** 2
-    return np.stack([(D * push1 - B * cos * push2) / whole, (A * push2 - B * cos * push1) / whole], axis=-1)
+    return (D * push1 - B * cos * push2) / whole, (A * push2 - B * cos * push1) / whole
 
 
 def energy_matrices(links: Links) -> tuple[Array, Array]:
