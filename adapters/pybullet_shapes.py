@@ -11,6 +11,8 @@ from ..scenarios.scene import Scene
 
 #: Half the width and half the depth [m] of the box that stands for a plane that moves.
 WIDTH, DEPTH = 10.0, 0.5
+#: How far [m] the box is raised: PyBullet sees what touches one only inside it, and rounding would part them.
+RAISED = 1e-13
 
 
 def shapes(scene: Scene, number: int) -> Iterator[str]:
@@ -26,7 +28,7 @@ def _shape(shape: Any) -> Iterator[str]:
     if isinstance(shape, Sphere):
         form = f'<sphere radius="{shape.radius!r}"/>'
     elif isinstance(shape, Plane):
-        center = np.array(shape.normal) * (shape.offset - DEPTH)
+        center = np.array(shape.normal) * (shape.offset + RAISED - DEPTH)
         if abs(shape.normal[2]) != 1:
             raise InputError(f"{shape} of a body: PyBullet's box stands for it only along z")
         origin = f'<origin xyz="{" ".join(repr(float(x)) for x in center)}" rpy="0 0 0"/>'
