@@ -19,7 +19,8 @@ class Scheme:
 
     ``order`` is the declared order of accuracy in attitude; ``twin`` the common name of schemes
     that are the same algorithm, in whatever engine; ``lacks`` the features of its engine that this
-    scheme does not support, each with the reason.
+    scheme does not support, each with the reason; ``"acceleration"`` where `Engine.acceleration` takes
+    so much longer or is so much coarser than rounding that it is not checked.
     """
 
     name: str

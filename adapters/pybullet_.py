@@ -39,7 +39,7 @@ class PyBullet:
     name: ClassVar[str] = "pybullet"
     schemes: ClassVar[tuple[Scheme, ...]] = (
         Scheme(_REDUCED, 1, "semi-implicit Euler", contact.NO_RIM),
-        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.JOINTED | contact.NO_RIM),
+        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.LACKING | contact.NO_RIM),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
     settings: ClassVar[dict[str, str]] = SETTINGS

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..reference.errors import InputError
+from ..scenarios.equations import states
 from ..scenarios.scene import FEATURES, Scene
 from ..scenarios.trajectory import Provenance, Trajectory
 from .engine import Engine, EngineError, Scheme, State
@@ -31,7 +32,8 @@ def simulate(
 ) -> tuple[Trajectory, Mapping[str, str]]:
     """Run one cell in this process: its trajectory with provenance, and the model text by file name.
 
-    The cell is built and run ``repeats`` times; the hashes of all of them go into the provenance.
+    The cell is built and run ``repeats`` times; the hashes of all of them go into the provenance, and of
+    a cell that is repeated the engine's accelerations too.
     ``dt`` [s] is rounded to a whole number of steps between samples. Raises ``UnsupportedError``
     if the engine lacks a feature, ``EngineError`` if it breaks down, ``InputError`` for a step out
     of range.
@@ -44,6 +46,9 @@ def simulate(
     try:
         machine.build(scene, scheme, dt)
         setup, model = machine.readback(), machine.model_text()
+        accelerations = (
+            _accelerations(machine, scene, scheme) if repeats > 1 else ()
+        )
         first = _record(machine, scene, dt)
         digests = [digest(first)]
         for _ in range(repeats - 1):
@@ -63,6 +68,7 @@ def simulate(
         setup=_plain(setup.values),
         probed=tuple(setup.probed),
         digests=tuple(digests),
+        accelerations=accelerations,
         settings=dict(engine.settings),
     )
     return replace(first, provenance=provenance), dict([model])
@@ -76,6 +82,13 @@ def digest(motion: Trajectory) -> str:
     hasher.update(np.ascontiguousarray(motion.joint_position).tobytes())
     hasher.update(np.ascontiguousarray(motion.joint_velocity).tobytes())
     return hasher.hexdigest()
+
+
+def _accelerations(machine: Engine, scene: Scene, scheme: Scheme) -> tuple[tuple[float, ...], ...]:
+    """The engine's accelerations at the states of ``scenarios.equations``; none where bodies may touch."""
+    if scene.contacts or "acceleration" in scheme.lacks:
+        return ()
+    return tuple(tuple(machine.acceleration(q, v).tolist()) for q, v in zip(*states(scene), strict=True))
 
 
 def _record(machine: Engine, scene: Scene, dt: float) -> Trajectory:
