@@ -25,19 +25,11 @@ def spin_momentum_body(scene: Scene, motion: Trajectory) -> Array:
     return np.asarray(np.einsum("bij,nbj->nbi", inertia, motion.omega))
 
 
-def orbital_energy(scene: Scene, motion: Trajectory) -> Array:
-    """½ Σ m v², (n,) [J]."""
-    return np.asarray(np.einsum("b,nbi,nbi->n", masses(scene), motion.velocity, motion.velocity) / 2)
-
-
-def spin_energy(scene: Scene, motion: Trajectory) -> Array:
-    """½ Σ ω·Iω, (n,) [J]."""
-    return np.asarray(np.einsum("nbi,nbi->n", motion.omega, spin_momentum_body(scene, motion)) / 2)
-
-
 def kinetic_energy(scene: Scene, motion: Trajectory) -> Array:
     """½ Σ (m v² + ω·Iω), (n,) [J]."""
-    return orbital_energy(scene, motion) + spin_energy(scene, motion)
+    orbital = np.einsum("b,nbi,nbi->n", masses(scene), motion.velocity, motion.velocity)
+    spin = np.einsum("nbi,nbi->n", motion.omega, spin_momentum_body(scene, motion))
+    return np.asarray((orbital + spin) / 2)
 
 
 def potential_energy(scene: Scene, motion: Trajectory) -> Array:
@@ -58,20 +50,11 @@ def momentum(scene: Scene, motion: Trajectory) -> Array:
     return np.asarray(np.einsum("b,nbi->ni", masses(scene), motion.velocity))
 
 
-def orbital_momentum_world(scene: Scene, motion: Trajectory) -> Array:
-    """Σ r × m v about the world's origin, (n, 3) [kg m²/s], world axes."""
-    return np.asarray(np.cross(motion.position, masses(scene)[:, None] * motion.velocity).sum(axis=1))
-
-
-def spin_momentum_world(scene: Scene, motion: Trajectory) -> Array:
-    """Σ R I ω, of every body about its own centre of mass, (n, 3) [kg m²/s], world axes."""
-    spin_body = spin_momentum_body(scene, motion)
-    return np.asarray(quaternions.rotated(motion.quaternion, spin_body).sum(axis=1))
-
-
 def angular_momentum_world(scene: Scene, motion: Trajectory) -> Array:
     """Σ (r × m v + R I ω) about the world's origin, (n, 3) [kg m²/s], world axes."""
-    return orbital_momentum_world(scene, motion) + spin_momentum_world(scene, motion)
+    orbital = np.cross(motion.position, masses(scene)[:, None] * motion.velocity)
+    spin_body = spin_momentum_body(scene, motion)
+    return np.asarray((orbital + quaternions.rotated(motion.quaternion, spin_body)).sum(axis=1))
 
 
 def momentum_scale(scene: Scene, motion: Trajectory) -> float:
