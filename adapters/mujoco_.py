@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
+from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
 from .mujoco_contact import add_contacts, told
 from .mujoco_forces import Forces
@@ -57,7 +58,8 @@ class MuJoCo:
         "contact, constraint": "off, but where a scene has contacts",
         "contacts": "impedance 0.9999; a blow without spring, damped at (1 + e)/dt; a rough contact with a "
         "spring of 1/dt², damped at 1/dt; elliptic cone, impratio 10, tolerance 0; what slides: impedance "
-        "0.995, impratio 1e4, friction undamped",
+        "0.995, impratio 1e4, friction undamped; under a rim: impedance 0.99, impratio 1e4",
+        "free bodies": "moved by their centre of mass, wherever their origin is, as PyBullet moves them",
         "sameframe": "none, where the inertial frame differs at all from the body's; "
         "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
     }
@@ -73,7 +75,9 @@ class MuJoCo:
         # Left alone, MuJoCo appends to MUJOCO_LOG.TXT in the working directory; its counters say as much.
         if mujoco.get_mju_user_warning() is None:
             mujoco.set_mju_user_warning(lambda message: None)
-        self._scene, self._scheme, self._steps = scene, scheme, 0
+        self._centred = centred(scene)
+        self._scene = scene = self._centred.scene
+        self._scheme, self._steps = scheme, 0
         self._spec, bodies, joints = _spec(scene, scheme, dt)
         self._model = _compiled(self._spec, scene.full_name)
         _keep_small_offsets(self._model)
@@ -113,10 +117,10 @@ class MuJoCo:
     def readback(self) -> Setup:
         """How MuJoCo is set up, by its own account; nothing has to be probed."""
         model, values = self._model, _world(self._model)
-        for body, i in zip(self._scene.bodies, self._bodies, strict=True):
+        for body, i in zip(self._centred.before.bodies, self._bodies, strict=True):
             com, turn = _inertial_frame(model, i)
             values[f"body/{body.name}/mass"] = float(model.body_mass[i])
-            values[f"body/{body.name}/center_of_mass"] = com
+            values[f"body/{body.name}/center_of_mass"] = self._centred.center_of_mass(body, com)
             values[f"body/{body.name}/inertia"] = turn @ np.diag(model.body_inertia[i]) @ turn.T
         for joint, v in zip(self._scene.scalar_joints, self._scalar_v, strict=True):
             values[f"joint/{joint.name}/stiffness"] = float(model.jnt_stiffness[model.dof_jntid[v]])
@@ -129,13 +133,14 @@ class MuJoCo:
         Contacts take no part: theirs depend on the step.
         """
         model, data = self._model, self._scratch
+        q, v = self._centred.state(q, v)
         data.qpos[self._q], data.qvel[self._v] = q, v
         # Under "discrete" qacc is the change of velocity over a whole step.
         chosen, model.opt.integrator = model.opt.integrator, mujoco.mjtIntegrator.mjINT_EULER
         with self._forced():
             mujoco.mj_forward(model, data)
         model.opt.integrator = chosen
-        return np.asarray(data.qacc_smooth[self._v])
+        return self._centred.acceleration(q, v, data.qacc_smooth[self._v])
 
     def model_text(self) -> tuple[str, str]:
         """The model as MJCF, with every digit."""

@@ -15,11 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from ..scenarios.contact import Contact, Plane, Sphere
+from ..scenarios.contact import Contact, Plane, Rim, Sphere
 from ..scenarios.scene import Scene
 
-#: The impedance at any depth (MuJoCo's own changes over the first millimetre): the most it takes; of sliding.
+#: The impedance, at any depth (MuJoCo's own changes over the first millimetre): its most, and of what slides.
 HARD, SLIDING = 0.9999, 0.995
+#: Of a rim, whose lowest point rises and falls as the disc leans: it must stay in touch over a step.
+ON_A_RIM = 0.99
 #: No spring or damper; with a 0 MuJoCo would take the other number for something else.
 NOTHING = 1e-15
 #: Half the width and half the depth [m] of the box that stands for a plane that moves.
@@ -34,7 +36,8 @@ def add_contacts(mujoco: Any, spec: Any, bodies: Mapping[str | None, Any], scene
     """Give a model its shapes and contacts, and its solver what it needs for them."""
     option = spec.option
     option.cone, option.tolerance = mujoco.mjtCone.mjCONE_ELLIPTIC, 0.0
-    option.impratio = SLIDES if any(contact.slides for contact in scene.contacts) else HOLDS
+    soft = any(_impedance(contact) < HARD for contact in scene.contacts)
+    option.impratio = SLIDES if soft else HOLDS
     for number, contact in enumerate(scene.contacts):
         raised = _settled(contact, scene, dt)
         _add_shape(mujoco, bodies[contact.first], contact.shape, f"{number} first", 0.0)
@@ -45,7 +48,7 @@ def add_contacts(mujoco: Any, spec: Any, bodies: Mapping[str | None, Any], scene
 
 def _set(pair: Any, contact: Contact, dt: float) -> None:
     pair.friction[:2], pair.condim = contact.friction, 3 if contact.friction else 1
-    pair.solimp[:2] = SLIDING if contact.slides else HARD
+    pair.solimp[:2] = _impedance(contact)
     pair.solref = [-1 / dt**2, -1 / dt] if contact.friction else [-NOTHING, -(1 + contact.restitution) / dt]
     if contact.slides:
         pair.solreffriction = [-NOTHING, -NOTHING]
@@ -61,12 +64,17 @@ def told(model: Any, scene: Scene) -> dict[str, float]:
     return values
 
 
+def _impedance(contact: Contact) -> float:
+    if isinstance(contact.shape, Rim):
+        return ON_A_RIM
+    return SLIDING if contact.slides else HARD
+
+
 def _settled(contact: Contact, scene: Scene, dt: float) -> float:
     """How deep [m] a body lies in what it rests on, so that it neither sinks nor is thrown up at first."""
     if not contact.friction:
         return 0.0
-    share = 1 - (SLIDING if contact.slides else HARD)
-    return share * float(np.linalg.norm(scene.gravity)) * dt**2
+    return (1 - _impedance(contact)) * float(np.linalg.norm(scene.gravity)) * dt**2
 
 
 def _add_shape(mujoco: Any, body: Any, shape: Any, name: str, raised: float) -> None:

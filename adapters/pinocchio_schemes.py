@@ -58,12 +58,13 @@ def implicit_gyroscopic(system: Mechanism, q: Array, v: Array, dt: float, n: int
     force, accelerate, integrate, step = system.force, system.accelerate, system.integrate, np.array(dt)
     for _ in range(n):
         a = accelerate(q, v, force(q, v))
+        if system.touch is not None:  # what contact does is a force like any other, as it is to MuJoCo
+            a = (system.touch(q, v, v + step * a) - v) / step
         # Solved for the difference to the explicit a: the rounding of M and ∂f/∂v then counts dt times less.
         mass, drag = system.linearised(q, v)
         drag *= step
         a -= _solve(mass + drag, drag @ a)[2]
-        a *= step
-        v = v + a if system.touch is None else system.touch(q, v, v + a)
+        v += step * a
         q = integrate(q, step * v)
     return q, v
 
