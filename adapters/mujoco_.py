@@ -13,6 +13,7 @@ from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
 from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
+from .mujoco_burning import Masses
 from .mujoco_contact import add_contacts, told
 from .mujoco_forces import Forces
 from .mujoco_mjcf import mjcf
@@ -22,7 +23,10 @@ _PLACES = {"free": (0, 1, 2, 4, 5, 6, 3), "ball": (1, 2, 3, 0), "hinge": (0,), "
 _SWITCHED_OFF = ("autoreset", "eulerdamp")
 #: Switched off where nothing touches.
 _FOR_CONTACT = ("contact", "constraint")
-_NO_CONTACT = {"contact": "MuJoCo's contact takes a whole step to act: only first-order schemes can carry it"}
+_FIRST_ORDER = {
+    "contact": "MuJoCo's contact takes a whole step to act: only first-order schemes can carry it",
+    "burning": "MuJoCo's masses stand still over a step: only first-order schemes can carry their fall",
+}
 _NO_TURN = (1.0, 0.0, 0.0, 0.0)
 
 _SOFT_CONTACT = {
@@ -48,7 +52,7 @@ class MuJoCo:
         Scheme("Euler", 1, "semi-implicit Euler", {}),
         Scheme("implicit", 1, "implicit gyroscopic", {}),
         Scheme("implicitfast", 1, "implicitfast", {}),
-        Scheme("RK4", 4, "RKMK4", _NO_CONTACT),
+        Scheme("RK4", 4, "RKMK4", _FIRST_ORDER),
         Scheme("discrete", 1, "discrete", _SOFT_CONTACT),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
@@ -84,13 +88,19 @@ class MuJoCo:
         self._locate([body.id for body in bodies], [joint.id for joint in joints])
         forces = Forces(mujoco, scene, self._bodies) if scene.forces else None
         self._forced = forces.acting if forces else nullcontext
+        self._masses = Masses(mujoco, scene, self._model, self._bodies, dt) if scene.burning else None
         self._data, self._scratch = mujoco.MjData(self._model), mujoco.MjData(self._model)
         self._data.qpos[self._q], self._data.qvel[self._v] = scene.q0, scene.v0
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps in MuJoCo's own loop."""
         with self._forced():
-            mujoco.mj_step(self._model, self._data, nstep=n)
+            if self._masses is None:
+                mujoco.mj_step(self._model, self._data, nstep=n)
+            else:
+                for k in range(n):
+                    self._masses.at(self._steps + k)
+                    mujoco.mj_step(self._model, self._data)
         self._steps += n
 
     def state(self) -> State:
@@ -181,7 +191,7 @@ class MuJoCo:
 # Until release 4.0 RK4 averaged the body velocities of its stages: second order in attitude.
 if int(MuJoCo.version().split(".")[0]) < 4:
     MuJoCo.schemes = tuple(
-        Scheme("RK4", 2, "RK4 of body velocities", _NO_CONTACT) if scheme.name == "RK4" else scheme
+        Scheme("RK4", 2, "RK4 of body velocities", _FIRST_ORDER) if scheme.name == "RK4" else scheme
         for scheme in MuJoCo.schemes
         if hasattr(mujoco.mjtIntegrator, _integrator(scheme))
     )

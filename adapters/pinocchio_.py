@@ -11,6 +11,7 @@ from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
 from .engine import EngineError, Scheme, Setup, State
+from .pinocchio_burning import Masses
 from .pinocchio_contact import Contacts
 from .pinocchio_forces import joint_forces
 from .pinocchio_json import model_json
@@ -34,7 +35,10 @@ class Pinocchio:
             "RKMK4",
             4,
             "RKMK4",
-            {"contact": "contact takes a whole step to act: only first-order schemes carry it"},
+            {
+                "contact": "contact takes a whole step to act: only first-order schemes carry it",
+                "burning": "Poinsot's Runge-Kutta knows no time within a step at which to take a mass",
+            },
         ),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
@@ -60,11 +64,20 @@ class Pinocchio:
         self._data = self._model.createData()
         self._locate(joints)
         self._mechanism = self._described_to_schemes()
+        self._masses = Masses(pin, scene, self._model, self._frames, dt) if scene.burning else None
         self._position, self._velocity = self._ours_to_pinocchio(scene.q0, scene.v0)
         self._position = pin.normalize(self._model, self._position)
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps of the scheme."""
+        if self._masses is None:
+            self._take(n)
+            return
+        for _ in range(n):
+            self._masses.at(self._steps)
+            self._take(1)
+
+    def _take(self, n: int) -> None:
         self._position, self._velocity = self._advance(
             self._mechanism, self._position, self._velocity, self._dt, n
         )

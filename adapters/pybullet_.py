@@ -139,7 +139,7 @@ class _World:
         uids = {_load(client, scene, tree, maximal): tree for tree in trees(scene)}
         links = dict(named for uid in uids for named in _quieted(client, uid))
         self._at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
-        self._pushes = pushes(p, client, scene, self._at)
+        self._pushes = pushes(p, client, scene, self._at, dt)
         self._pairs = contact.connect(p, client, scene, self._at.bodies) if scene.contacts else []
         self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
         frames = [inertial_frame(p, client, *place) for place in self._at.bodies]

@@ -1,10 +1,12 @@
-"""What PyBullet is handed at the start of each step: forces of springs, and those from outside the joints."""
+"""What PyBullet is handed at the start of each step: forces of springs and from outside, falling masses."""
 
 from collections.abc import Callable, Sequence
+from itertools import count
 from typing import Any
 
 import numpy as np
 
+from ..scenarios.burning import Burning
 from ..scenarios.forces import forces_on
 from ..scenarios.scene import Scene
 from .pybullet_layout import Layout
@@ -13,10 +15,11 @@ from .pybullet_layout import Layout
 Push = Callable[[], None]
 
 
-def pushes(p: Any, client: int, scene: Scene, layout: Layout) -> list[Push]:
-    """What to call before each step of a scene; nothing where nothing but gravity and dampers act."""
-    springs = [_springs(p, client, *tree) for tree in layout.springs]
-    return [*springs, _forces(p, client, scene, layout)] if scene.forces else springs
+def pushes(p: Any, client: int, scene: Scene, layout: Layout, dt: float) -> list[Push]:
+    """What to call before each step, of ``dt`` [s]; nothing where nothing but gravity and dampers act."""
+    found = [_springs(p, client, *tree) for tree in layout.springs]
+    found += [_forces(p, client, scene, layout)] if scene.forces else []
+    return found + [_falling(p, client, scene, layout, burning, dt) for burning in scene.burning]
 
 
 def _springs(p: Any, client: int, uid: int, links: Sequence[int], pulls: Sequence[float]) -> Push:
@@ -29,9 +32,23 @@ def _springs(p: Any, client: int, uid: int, links: Sequence[int], pulls: Sequenc
     return pull
 
 
+def _falling(p: Any, client: int, scene: Scene, layout: Layout, burning: Burning, dt: float) -> Push:
+    """The mass of a body at the start of each step, counted from the first."""
+    place, steps = layout.bodies[burning.place(scene.bodies)], count()
+    mass, _, moments, *_ = p.getDynamicsInfo(*place, client)
+
+    def fall() -> None:
+        share = burning.share(scene.bodies, next(steps) * dt)
+        # A mass alone would overwrite the moments by those of a shape that is not there.
+        left = [moment * share for moment in moments]
+        p.changeDynamics(*place, mass=mass * share, localInertiaDiagonal=left, physicsClientId=client)
+
+    return fall
+
+
 def _forces(p: Any, client: int, scene: Scene, layout: Layout) -> Push:
-    total, count = forces_on(scene.bodies, scene.forces), len(scene.bodies)
-    position, velocity = np.empty((count, 3)), np.empty((count, 3))
+    total = forces_on(scene.bodies, scene.forces)
+    position, velocity = np.empty((2, len(scene.bodies), 3))
     linked = [
         (uid, numbers, [layout.bodies[number][1] for number in numbers])
         for uid, numbers in layout.linked.items()

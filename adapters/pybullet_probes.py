@@ -141,14 +141,14 @@ def at_origin(center: Array, turn: Array, omega: Array, arm: Array) -> Array:
 
 
 def without(scene: Scene, *settings: str) -> Scene:
-    """The scene without contacts, ``gravity`` and forces, springs (``stiffness``), dampers (``damping``)."""
+    """The scene without contacts and burning, ``gravity`` and forces, ``stiffness`` or ``damping``."""
     lost: dict[str, Any] = dict.fromkeys(set(settings) - {"gravity"}, 0.0)
     bodies = [
         replace(body, joints=tuple(replace(joint, **lost) for joint in body.joints)) for body in scene.bodies
     ]
     weightless = "gravity" in settings
     gravity, forces = ((0.0, 0.0, 0.0), ()) if weightless else (scene.gravity, scene.forces)
-    return replace(scene, bodies=tuple(bodies), gravity=gravity, forces=forces, contacts=())
+    return replace(scene, bodies=tuple(bodies), gravity=gravity, forces=forces, contacts=(), burning=())
 
 
 def _share(change: Array, response: Array) -> float:

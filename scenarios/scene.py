@@ -11,6 +11,7 @@ import numpy as np
 from ..reference.checked import Array, finite, positive
 from ..reference.errors import InputError
 from .body import WIDTHS, Body, Joint, Vector
+from .burning import Burning
 from .contact import Contact, Rim
 from .forces import Force
 from .observables import Observable
@@ -32,6 +33,7 @@ FEATURES: dict[str, str] = {
     "friction": "friction in contacts",
     "rim": "contact on the rim of a disc",
     "force": "forces that depend on where bodies are or how fast",
+    "burning": "masses that fall while a scene runs",
 }
 
 #: What no scene gets unless a later feature names it, in words for the report.
@@ -68,7 +70,7 @@ class Scene:
 
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
     ``soft`` says of engines, by name, how far their contacts give way: granted beside round-off.
-    ``forces`` act at the centres of mass, beside gravity and what joints do.
+    ``forces`` act at the centres of mass, beside gravity and what joints do; ``burning`` bodies lose mass.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
@@ -98,6 +100,7 @@ class Scene:
     contacts: tuple[Contact, ...] = ()
     soft: Mapping[str, Softness] = field(default_factory=dict)
     forces: tuple[Force, ...] = ()
+    burning: tuple[Burning, ...] = ()
 
     def __post_init__(self) -> None:
         try:
@@ -134,6 +137,7 @@ class Scene:
             "friction": any(contact.friction for contact in self.contacts),
             "rim": any(isinstance(contact.shape, Rim) for contact in self.contacts),
             "force": bool(self.forces),
+            "burning": bool(self.burning),
         }
         return frozenset(found | {name for name, present in optional.items() if present})
 
@@ -221,6 +225,8 @@ class Scene:
         self._check_contacts()
         for force in self.forces:
             force.acting(self.bodies)  # raises for a body that is not there
+        for burning in self.burning:
+            burning.share(self.bodies, self.duration)  # raises where nothing is left
         nq, nv = (sum(WIDTHS[joint.kind][side] for joint in self.joints) for side in (0, 1))
         q0 = finite("q0", self.q0, (nq,))
         finite("v0", self.v0, (nv,))

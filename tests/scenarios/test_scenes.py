@@ -13,10 +13,10 @@ from poinsot.scenarios.scene import FEATURES, NEVER_BUILT
 from scipy.integrate import solve_ivp
 
 EVERY = pytest.mark.parametrize("scene", scenes().values(), ids=lambda scene: scene.full_name)
-#: The reference's equations of motion know no contact: scenes with one are tested in files of their own.
+#: The reference's equations of motion know no contact and no burning: such scenes are tested in their own files.
 UNTOUCHED = pytest.mark.parametrize(
     "scene",
-    [scene for scene in scenes().values() if not scene.contacts],
+    [scene for scene in scenes().values() if not scene.contacts and not scene.burning],
     ids=lambda scene: scene.full_name,
 )
 CHANNELS = ("position", "quaternion", "velocity", "omega", "joint_position", "joint_velocity")
@@ -142,7 +142,7 @@ def moved(scene, truth, wrong, observable):
 @EVERY
 def test_ladders_are_whole_steps_that_halve(scene):
     # Or that go by thirds, which keep a blow in the middle of a step; only first-order schemes have contact.
-    assert ({1} if scene.contacts else {1, 4}) <= set(scene.ladders)
+    assert ({1} if scene.contacts or scene.burning else {1, 4}) <= set(scene.ladders)
     for steps in scene.ladders.values():
         assert len(steps) >= 5
         ratio = 3.0 if scene.contacts and steps[0] / steps[1] > 2.5 else 2.0
