@@ -55,7 +55,8 @@ def expected(scene: Scene) -> Expected:
     """The scene's inertia (n, nv, nv) and accelerations (n, nv) at ``equations.states``.
 
     ``unit`` (n, nv) is the root of each velocity's own inertia: divided by it, forces along metres and
-    radians compare. ``size`` (n,) is then the largest force, inertial ones before they cancel.
+    radians compare. ``size`` (n,) is then the largest force: inertial ones, weights and forces from
+    outside before they cancel, as all do where a pendulum hangs at rest.
     """
     (q, v), bodies = states(scene), links(scene)
     forces = outer_forces(scene, q, v)
@@ -66,5 +67,9 @@ def expected(scene: Scene) -> Expected:
     moved = np.einsum("nij,nj->ni", np.abs(inertia), np.abs(true))
     omega = equations_of_motion.link_motion(bodies, q, v)[3]
     fastest = np.linalg.norm(omega, axis=2).max(axis=1)
-    size = ((moved + np.abs(bias) + np.abs(applied)) / unit).max(axis=1)
+    still = np.zeros_like(v)
+    weight = equations_of_motion.required_forces(bodies, q, still, still, scene.gravity)
+    pushed = equations_of_motion.required_forces(bodies, q, still, still, forces=forces)
+    acting = np.abs(bias) + np.abs(applied) + np.abs(weight) + np.abs(pushed)
+    size = ((moved + acting) / unit).max(axis=1)
     return Expected(inertia, true, unit, size + fastest * np.linalg.norm(unit * v, axis=1) + 1e-300)

@@ -1,4 +1,4 @@
-"""The rocket: Newton's law for what is left, and engines that keep the mass, or half of what follows from it."""
+"""The rocket: Newton's law for what is left, and engines that keep the mass or are late with it."""
 
 from dataclasses import replace
 

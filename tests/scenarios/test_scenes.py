@@ -13,7 +13,7 @@ from poinsot.scenarios.scene import FEATURES, NEVER_BUILT
 from scipy.integrate import solve_ivp
 
 EVERY = pytest.mark.parametrize("scene", scenes().values(), ids=lambda scene: scene.full_name)
-#: The reference's equations of motion know no contact and no burning: such scenes are tested in their own files.
+#: The reference's equations of motion know no contact and no burning: such scenes have tests of their own.
 UNTOUCHED = pytest.mark.parametrize(
     "scene",
     [scene for scene in scenes().values() if not scene.contacts and not scene.burning],
