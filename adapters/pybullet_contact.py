@@ -16,8 +16,8 @@ from .pybullet_layout import Place
 #: Why no scheme of PyBullet's carries a disc on its rim.
 NO_RIM = {
     "rim": "PyBullet has no shape that is right for a rim: a disc of 0.15 m, 0.001 rad aslant at half the "
-    "speed at which it would stay up, must lean 0.10 rad after 0.8 s; a cylinder of 10 mm stands, one of 1 mm "
-    "leans 0.42 rad and one of 0.1 mm 0.68 rad, at steps of 1 ms and 0.1 ms alike"
+    "speed at which it would stay up, must lean 0.10 rad after 0.8 s; a cylinder of 10 mm stands, one of 1 "
+    "mm leans 0.42 rad and one of 0.1 mm 0.68 rad, at steps of 1 ms and 0.1 ms alike"
 }
 #: Nothing is corrected that the scene did not ask for: no push out of a depth, no least speed of a bounce.
 SOLVER = {
