@@ -10,6 +10,7 @@ import pinocchio as pin
 from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.scene import FEATURES, Scene
+from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
 from .pinocchio_burning import Masses
 from .pinocchio_contact import Contacts
@@ -58,7 +59,9 @@ class Pinocchio:
 
     def build(self, scene: Scene, scheme: Scheme, dt: float) -> None:
         """Build ``scene`` at its initial state."""
-        self._scene, self._dt, self._steps = scene, dt, 0
+        self._centred = centred(scene)
+        self._scene = scene = self._centred.scene
+        self._dt, self._steps = dt, 0
         self._advance = _ADVANCE[scheme.name]
         self._model, self._frames, joints = _model(scene)
         self._data = self._model.createData()
@@ -102,10 +105,10 @@ class Pinocchio:
             "linear_damping": 0.0,
             "angular_damping": 0.0,
         }
-        for body, frame in zip(self._scene.bodies, self._frames, strict=True):
+        for body, frame in zip(self._centred.before.bodies, self._frames, strict=True):
             inertia = self._moved(frame)
             values[f"body/{body.name}/mass"] = float(inertia.mass)
-            values[f"body/{body.name}/center_of_mass"] = inertia.lever.copy()
+            values[f"body/{body.name}/center_of_mass"] = self._centred.center_of_mass(body, inertia.lever)
             values[f"body/{body.name}/inertia"] = inertia.inertia.copy()
         for joint, (_, stiffness, damping) in zip(self._scene.scalar_joints, self._springs(), strict=True):
             values[f"joint/{joint.name}/stiffness"] = stiffness
@@ -120,9 +123,11 @@ class Pinocchio:
 
         Contacts take no part: theirs depend on the step.
         """
+        q, v = self._centred.state(q, v)
         position, velocity = self._ours_to_pinocchio(q, v)
         force = self._mechanism.force(position, velocity)
-        return np.asarray(pin.aba(self._model, self._data, position, velocity, force)[self._v])
+        found = pin.aba(self._model, self._data, position, velocity, force)[self._v]
+        return self._centred.acceleration(q, v, found)
 
     def model_text(self) -> tuple[str, str]:
         """The model as JSON, every joint and body with every digit; a URDF could not hold ball joints."""
