@@ -157,7 +157,7 @@ def test_the_state_is_that_after_the_step(random_tree, links_of, seed):
     engine = built(scene, "RK4")
     engine.step(100)
     q, v = engine._data.qpos[engine._q], engine._data.qvel[engine._v]
-    position, quaternion, velocity, omega = equations_of_motion.link_motion(links_of(scene), q, v)
+    position, quaternion, velocity, omega = equations_of_motion.link_motion(links_of(engine._scene), q, v)
     state = engine.state()
     # A few roundings of numbers of size 1 to 10 along five links.
     np.testing.assert_allclose(state.position, position, atol=2e-14)
@@ -421,7 +421,7 @@ def _weightless(model):
         (_set("body_inertia", (1, 2), 0.02), "body/top/inertia"),
         (_set("body_iquat", 1, (1, 0, 0, 0)), "body/top/inertia"),
         (_set("body_ipos", (1, 0), 0.03), "body/top/center_of_mass"),
-        (_set("body_sameframe", 1, mujoco.mjtSameFrame.mjSAMEFRAME_BODY), "body/top/center_of_mass"),
+        (_set("body_sameframe", 1, mujoco.mjtSameFrame.mjSAMEFRAME_BODY), "body/top/inertia"),
         (_set("dof_damping", 1, 0.04), "linear_damping"),
         (_set("dof_damping", 4, 0.04), "angular_damping"),
         (lambda model: model.opt.gravity.__setitem__(2, -9.80), "gravity"),
@@ -434,6 +434,14 @@ def test_a_wrong_model_shows_in_the_readback(top, change, setting):
     change(wrong._model)
     a, b = right.readback().values[setting], wrong.readback().values[setting]
     assert np.abs(np.subtract(a, b)).max() > 1e-4
+
+
+def test_an_offset_that_mujoco_drops_shows_in_the_readback(scene_of):
+    body = Body("top", 1.0, diagonal(1, 2, 2.5), (Joint("pivot", "ball"),), center_of_mass=(0.1, 0.0, 0.0))
+    engine = built(scene_of([body], [0, 0, 0, 1], [0, 0, 0]))
+    assert engine.readback().values["body/top/center_of_mass"] == pytest.approx([0.1, 0.0, 0.0], rel=1e-15)
+    engine._model.body_sameframe[1] = mujoco.mjtSameFrame.mjSAMEFRAME_BODY
+    assert not engine.readback().values["body/top/center_of_mass"].any()
 
 
 def test_damping_is_said_as_a_rate(scene_of):
@@ -503,8 +511,8 @@ def test_the_text_is_the_model_to_the_last_bit(random_tree, scheme, seed):
 
 @pytest.mark.parametrize(("offset", "simple"), [(0.0, 1), (9e-7, 0), (0.1, 0)])
 def test_the_text_says_which_mass_matrices_are_diagonal(scene_of, offset, simple):
-    body = Body("body", 1.0, diagonal(1, 2, 2.5), (Joint("free", "free"),), center_of_mass=(offset, 0.0, 0.0))
-    engine = built(scene_of([body], [0] * 6 + [1], [0] * 6))
+    body = Body("body", 1.0, diagonal(1, 2, 2.5), (Joint("ball", "ball"),), center_of_mass=(offset, 0.0, 0.0))
+    engine = built(scene_of([body], [0] * 3 + [1], [0] * 3))
     assert same_model(engine).body_simple[1] == engine._model.body_simple[1] == simple
     # Only an exactly aligned body keeps MuJoCo's shortcut.
     same = mujoco.mjtSameFrame.mjSAMEFRAME_BODY
