@@ -1,6 +1,7 @@
 """Contact by Pinocchio's own solver of constraints, at points that are ours to supply."""
 
 from collections.abc import Sequence
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ class Contacts:
         self._pin, self._model, self._data, self._dt = pin, model, model.createData(), dt
         at = {body.name: frame for body, frame in zip(scene.bodies, frames, strict=True)}
         self._pairs = [(c, at[c.first], at[c.second] if c.second else None) for c in scene.contacts]
+        self._above = np.triu_indices(model.nv, 1)
         self._settings = pin.PGSSolverSettings()
         self._settings.max_iterations = SWEEPS
         for kind in ("feasibility", "complementarity"):
@@ -50,8 +52,9 @@ class Contacts:
             one.calc(model, data, its)
             rows.append(pin.getConstraintJacobian(model, data, one, its))
         J = np.vstack([_along_slip(row, free) for row in rows])
-        half = np.triu(pin.computeMinverse(model, data, q))
-        turned = (half + np.triu(half, 1).T) @ J.T
+        inverse = pin.computeMinverse(model, data, q)  # Pinocchio fills its upper half
+        inverse.T[self._above] = inverse[self._above]
+        turned = inverse @ J.T
         meeting, g = J @ before, J @ free
         for k, (contact, gap) in enumerate(offsets):
             # Rough: in one step no deeper than the surface. Smooth: parting at −e times the speed of meeting.
@@ -99,6 +102,9 @@ def _along_slip(J: Array, free: Array) -> Array:
 
 def _axes(normal: Array) -> Array:
     """Axes (3, 3), the third of which is ``normal``."""
-    across = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
-    across /= np.linalg.norm(across)
-    return np.column_stack([across, np.cross(normal, across), normal])
+    x, y, z = normal.tolist()  # by hand: numpy's cross takes longer than the solver
+    level = hypot(x, y)
+    if level < 1e-6:
+        return np.array([[z, 0.0, x], [0.0, 1.0, y], [-x, -y, z]])
+    c, s = x / level, y / level
+    return np.array([[-s, -c * z, x], [c, -s * z, y], [0.0, level, z]])

@@ -16,7 +16,7 @@ DT = 1e-3
 
 
 def judged(motion, dt=DT):
-    run = Provenance(SCENE.full_name, "engine", "1", "Euler", 1, "semi-implicit Euler", dt, round(2.56 / dt))
+    run = Provenance(SCENE.full_name, "engine", "1", "Euler", 1, "semi-implicit Euler", dt, round(1.28 / dt))
     return {v.observable for v in truth.check(Cell(SCENE, motion, run)) if v.status is not Status.PASS}
 
 
