@@ -64,6 +64,7 @@ class MuJoCo:
         "spring of 1/dt², damped at 1/dt; elliptic cone, impratio 10, tolerance 0; what slides: impedance "
         "0.995, impratio 1e4, friction undamped; under a rim: impedance 0.99, impratio 1e4",
         "free bodies": "moved by their centre of mass, wherever their origin is, as PyBullet moves them",
+        "forces": "by the callback for passive forces, at every stage of a step",
         "sameframe": "none, where the inertial frame differs at all from the body's; "
         "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
     }

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def masses(scene: Scene) -> Array:
-    """Mass of every body, (b,) [kg]."""
+    """Mass of every body, (b,) [kg]; of one that burns, at the start."""
     return np.array([body.mass for body in scene.bodies])
 
 

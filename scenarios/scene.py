@@ -13,7 +13,7 @@ from ..reference.errors import InputError
 from .body import WIDTHS, Body, Joint, Vector
 from .burning import Burning
 from .contact import Contact, Rim
-from .forces import Force
+from .forces import Constant, Force, Spring
 from .observables import Observable
 from .pictures import Picture
 from .trajectory import Trajectory
@@ -227,6 +227,12 @@ class Scene:
             force.acting(self.bodies)  # raises for a body that is not there
         for burning in self.burning:
             burning.share(self.bodies, self.duration)  # raises where nothing is left
+            for force in self.forces:
+                if not isinstance(force, (Constant, Spring)):
+                    raise InputError(
+                        f"forces: got {type(force).__name__} beside a burning body, expected only forces "
+                        "that do not depend on its mass: Constant, Spring"
+                    )
         nq, nv = (sum(WIDTHS[joint.kind][side] for joint in self.joints) for side in (0, 1))
         q0 = finite("q0", self.q0, (nq,))
         finite("v0", self.v0, (nv,))

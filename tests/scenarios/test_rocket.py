@@ -9,6 +9,7 @@ from poinsot.adapters.simulate import simulate, unsupported
 from poinsot.reference.errors import InputError
 from poinsot.scenarios import rocket
 from poinsot.scenarios.burning import Burning
+from poinsot.scenarios.forces import Coriolis
 from poinsot.scenarios.registry import scenes
 
 ENGINES = [engine for engine in registry.engines().values() if not isinstance(engine, str)]
@@ -63,6 +64,11 @@ def test_an_engine_that_is_a_step_late_with_its_mass_is_seen(failed, monkeypatch
     # Still of first order, and right in the limit: the prediction of the scheme's own motion tells.
     assert ("truth", "velocity, scheme's own") in seen
     assert ("truth", "velocity, limit") not in seen
+
+
+def test_a_force_that_would_go_on_with_the_mass_of_the_start_is_refused():
+    with pytest.raises(InputError, match="forces: got Coriolis beside a burning body"):
+        replace(scenes()["rocket"], forces=(Coriolis((0.0, 0.0, 1.0)),))
 
 
 def test_a_body_that_is_not_there_or_burns_up_is_refused():
