@@ -42,6 +42,9 @@ class Drifting:
     def readback(self):
         return Setup({"gravity": np.zeros(3), "dt": np.float64(0.1), "limit": np.inf}, ("limit",))
 
+    def acceleration(self, q, v):
+        return np.zeros_like(v)
+
     def model_text(self):
         return "model.txt", "three bodies"
 

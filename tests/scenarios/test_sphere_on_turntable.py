@@ -93,3 +93,10 @@ def test_a_table_that_is_slowed_is_seen():
     m = SCENE.truth(SCENE, SCENE.sample_times())
     slowed = replace(m, joint_velocity=m.joint_velocity * (1 - 1e-9))
     assert "table" in judged(slowed)
+
+
+def test_it_starts_rolling_as_the_reference_says():
+    rolling = sphere_on_turntable.ball_on_a_turntable(
+        ball.RADIUS, ball.TURNING, ball.PLACE, ball.VELOCITY, [0.0], ball.SPIN
+    )[2]
+    assert rolling[0] == pytest.approx(ball.OMEGA, rel=1e-15)
