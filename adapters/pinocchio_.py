@@ -45,7 +45,7 @@ class Pinocchio:
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
     settings: ClassVar[dict[str, str]] = {
         "integrators": "Poinsot's own: Pinocchio gives accelerations, and q ⊕ dq",
-        "free bodies": "a translation and then a ball joint, with the velocity in world axes "
+        "free bodies": "at their centre of mass, a translation and then a ball joint, velocity in world axes "
         "(a FreeFlyer's, in body axes, is another and worse scheme)",
         "springs, dampers and forces": "joint forces of ours, taken where the scheme takes its accelerations",
         "contacts": "points, normals and gaps are Poinsot's own; the impulses are those of Pinocchio's "
