@@ -46,9 +46,7 @@ def simulate(
     try:
         machine.build(scene, scheme, dt)
         setup, model = machine.readback(), machine.model_text()
-        accelerations = (
-            _accelerations(machine, scene, scheme) if repeats > 1 else ()
-        )
+        accelerations = _accelerations(machine, scene, scheme) if repeats > 1 else ()
         first = _record(machine, scene, dt)
         digests = [digest(first)]
         for _ in range(repeats - 1):
