@@ -47,7 +47,12 @@ def orientation() -> Observable:
         turn = quaternions.product(quaternions.conjugate(b.quaternion), a.quaternion)
         return quaternions.rotation_vector(turn).reshape(len(a.t), -1)
 
-    return Observable("orientation", "rad", "state", difference, lambda scene, b: 1.0)
+    def scale(scene: Scene, b: Trajectory) -> float:
+        # A hinge's angle counts whole turns, and is rounded as so large a number; the attitude inherits it.
+        hinges = [joint.kind == "hinge" for joint in scene.scalar_joints]
+        return max(1.0, float(np.abs(b.joint_position[:, hinges]).max(initial=0.0)))
+
+    return Observable("orientation", "rad", "state", difference, scale)
 
 
 def _state(name: str, unit: str) -> Observable:
