@@ -47,8 +47,8 @@ def _truth(scene: Scene, t: Array) -> Trajectory:
         omega = omega + rate[:, i, None] * quaternions.rotated(q, axis)
         q = quaternions.product(q, quaternions.from_rotation_vector(np.outer(angle[:, i], axis)))
         rows.append((position, q, velocity, quaternions.rotated(quaternions.conjugate(q), omega)))
-    stacked = (np.stack(part, axis=1) for part in zip(*rows, strict=True))
-    return Trajectory(t, *stacked, angle, rate)
+    places, turns, speeds, spins = (np.stack(part, axis=1) for part in zip(*rows, strict=True))
+    return Trajectory(t, places, turns, speeds, spins, angle, rate)
 
 
 def _missing(scene: Scene, motion: Trajectory) -> Array:
