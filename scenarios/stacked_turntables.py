@@ -23,22 +23,23 @@ MOMENTS, MASSES = (2e13, 1e13, 0.02), (1e12, 1e12, 0.5)
 ANGLES, RATES = (0.4, -0.7, 1.1), (3.0, -4.0, 6.0)
 
 
-def _hinges(t: Array) -> tuple[Array, Array]:
+def _hinges(scene: Scene, t: Array) -> tuple[Array, Array]:
     """Angles and rates (n, 3): σ̇3 = −σ2 (ω1×a2)·a3, a3 going round a2 at σ2 as seen from the first table."""
-    turned = np.array(ANGLES[:2]) + np.outer(t, RATES[:2])
+    angles, rates = np.array(scene.q0), np.array(scene.v0)
+    turned = angles[:2] + np.outer(t, rates[:2])
     first, second, third = np.array(AXES)
-    push = RATES[0] * np.cross(first, second)
+    push = rates[0] * np.cross(first, second)
     A, B = push @ third, push @ np.cross(second, third)
-    (sine, cosine), (sine0, cosine0) = ((np.sin(x), np.cos(x)) for x in (turned[:, 1], ANGLES[1]))
-    rate = RATES[2] - A * (sine - sine0) + B * (cosine - cosine0)
-    swung = (A * (cosine - cosine0) + B * (sine - sine0)) / RATES[1]
-    angle = ANGLES[2] + (RATES[2] + A * sine0 - B * cosine0) * t + swung
-    steady = np.broadcast_to(RATES[:2], turned.shape)
+    (sine, cosine), (sine0, cosine0) = ((np.sin(x), np.cos(x)) for x in (turned[:, 1], angles[1]))
+    rate = rates[2] - A * (sine - sine0) + B * (cosine - cosine0)
+    swung = (A * (cosine - cosine0) + B * (sine - sine0)) / rates[1]
+    angle = angles[2] + (rates[2] + A * sine0 - B * cosine0) * t + swung
+    steady = np.broadcast_to(rates[:2], turned.shape)
     return np.column_stack([turned, angle]), np.column_stack([steady, rate])
 
 
 def _truth(scene: Scene, t: Array) -> Trajectory:
-    angle, rate = _hinges(t)
+    angle, rate = _hinges(scene, t)
     q, omega = np.broadcast_to([0.0, 0.0, 0.0, 1.0], (len(t), 4)), np.zeros((len(t), 3))
     position, velocity, rows = np.zeros((len(t), 3)), np.zeros((len(t), 3)), []
     for i, (axis, place) in enumerate(zip(np.array(AXES), np.array(PLACES), strict=True)):

@@ -164,7 +164,10 @@ def test_soft_mode_beside_stiff_ones_is_not_taken_for_a_drift():
 def test_sign_of_modes_is_settled(system):
     _, A = normal_modes(*system)
     for mode in A.T:
-        assert mode[np.argmax(np.abs(mode) > np.abs(mode).max() / 2)] > 0
+        share = np.abs(mode) / np.abs(mode).max()
+        # An entry that is half the largest but for rounding may or may not count.
+        if np.abs(share - 0.5).min() > 1e-9:
+            assert mode[np.argmax(share > 0.5)] > 0
 
 
 def test_coordinate_that_no_spring_holds_drifts_however_it_shares_in_the_masses():

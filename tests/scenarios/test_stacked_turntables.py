@@ -10,7 +10,7 @@ T = np.linspace(0.0, 1.28, 1281)
 
 
 def test_the_last_rate_is_the_derivative_of_the_last_angle_and_follows_from_how_it_is_carried():
-    angle, rate = stack._hinges(T)
+    angle, rate = stack._hinges(SCENE, T)
     h = T[1]
     derivative = (-angle[4:] + 8 * angle[3:-1] - 8 * angle[1:-3] + angle[:-4]) / (12 * h)
     assert derivative[:, 2] == pytest.approx(rate[2:-2, 2], abs=1e-8)
