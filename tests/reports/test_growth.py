@@ -45,3 +45,10 @@ def test_a_motion_from_rest_is_kicked_by_the_speed_it_reaches():
     released = replace(scene, v0=(0.0, 0.0, 0.0))
     # The outer two swing at one speed; a kick to the joint that carries all three moves three, for ever.
     assert growth(released) == pytest.approx(np.sqrt(3 / 2), rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["stacked_turntables", "large_pendulum[swing]"])
+def test_where_the_truth_takes_no_notice_of_a_kick_it_is_integrated(name):
+    scene = scenes()[name]
+    deaf = replace(scene, truth=lambda _, t: scene.truth(scene, t))
+    assert growth(deaf) == pytest.approx(growth(scene), rel=0.02)

@@ -1,0 +1,82 @@
+"""Chains of beads: closed-form modes against the truth, and engines that treat a far bead otherwise."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from poinsot.reference import bead_chain
+from poinsot.reference import normal_modes as by_eigenvalues
+from poinsot.scenarios import normal_modes
+from poinsot.scenarios.registry import scenes
+
+CHAINS = [(4, "wall"), (16, "wall"), (64, "wall"), (16, "free")]
+
+
+def chain(beads, ends):
+    return scenes()[f"normal_modes[{beads}_{ends}]"]
+
+
+@pytest.mark.parametrize(("beads", "ends"), CHAINS)
+def test_shapes_and_frequencies_diagonalise_both_energies(beads, ends):
+    T, V = bead_chain.energies(beads, normal_modes.MASS, normal_modes.STIFFNESS, ends)
+    A = np.column_stack([normal_modes.shape(beads, ends, mode) for mode in range(beads)])
+    omega, found = by_eigenvalues.normal_modes(T, V)
+    assert pytest.approx(np.eye(beads), abs=1e-13) == A.T @ T @ A
+    assert pytest.approx(np.diag(omega**2), abs=1e-11) == A.T @ V @ A
+    assert np.abs(A.T @ T @ found) == pytest.approx(np.eye(beads), abs=1e-12)
+
+
+@pytest.mark.parametrize(("beads", "ends"), CHAINS)
+def test_the_phase_of_the_truth_turns_at_the_closed_form(beads, ends):
+    scene = chain(beads, ends)
+    t = scene.sample_times()
+    motion = scene.truth(scene, t)
+    held = replace(
+        motion,
+        **{
+            name: np.broadcast_to(getattr(motion, name)[:1], getattr(motion, name).shape)
+            for name in ("position", "velocity")
+        },
+    )
+    rates = [observable for observable in scene.observables if observable.kind == "rate"]
+    assert rates
+    for rate in rates:
+        slope = rate.difference(scene, motion, held)[0, 0]
+        assert slope == pytest.approx(rate.scale(scene, motion), rel=1e-11)
+
+
+def test_free_beads_drift_as_one():
+    scene = chain(16, "free")
+    t = scene.sample_times()
+    middle = scene.truth(scene, t).position[:, :, 0].mean(axis=1)
+    speed = normal_modes.AMPLITUDE / np.sqrt(16 * normal_modes.MASS)
+    assert middle - middle[0] == pytest.approx(speed * t, abs=1e-15)
+
+
+def test_the_chain_steps_as_semi_implicit_euler_by_hand():
+    scene, dt = chain(16, "wall"), 1e-2
+    x, v = np.cumsum(scene.q0), np.cumsum(scene.v0)
+    for _ in range(5):
+        pulled = normal_modes.STIFFNESS * np.diff(x, prepend=0.0)
+        v = v + dt * (np.append(pulled[1:], 0.0) - pulled) / normal_modes.MASS
+        x = x + dt * v
+    found = scene.scheme_motion(scene, "semi-implicit Euler", dt, np.array([5 * dt]))
+    rest = normal_modes.SPACING * np.arange(1, 17)
+    assert found.position[0, :, 0] == pytest.approx(x + rest, abs=1e-14)
+    assert found.velocity[0, :, 0] == pytest.approx(v, abs=1e-13)
+    assert scene.scheme_motion(scene, "leapfrog", dt, np.array([0.0])) is None
+
+
+def test_an_engine_whose_springs_slacken_down_the_chain_is_seen(failed):
+    mujoco_ = pytest.importorskip("poinsot.adapters.mujoco_")
+
+    class Slack(mujoco_.MuJoCo):
+        def build(self, scene, scheme, dt):
+            last = scene.bodies[-1]
+            weak = replace(last.joints[0], stiffness=0.999 * last.joints[0].stiffness)
+            bodies = (*scene.bodies[:-1], replace(last, joints=(weak,)))
+            super().build(replace(scene, bodies=bodies), scheme, dt)
+
+    seen = failed(Slack, chain(16, "wall"))
+    assert {("truth", "position"), ("truth", "frequency of mode 1")} <= seen
+    assert not failed(mujoco_.MuJoCo, chain(16, "wall"))
