@@ -199,7 +199,8 @@ def _timed(
 
 
 def _quality(timings: Sequence[Timing]) -> list[str]:
-    """How far the timings can be trusted, in sentences."""
+    """How far the timings can be trusted, in sentences; scaled from one timing, they are one."""
+    timings = list({timing.beat: timing for timing in timings}.values())
     if not timings:
         return []
     loose = sum(timing.spread > SPREAD for timing in timings)

@@ -21,9 +21,19 @@ def test_shapes_and_frequencies_diagonalise_both_energies(beads, ends):
     T, V = bead_chain.energies(beads, normal_modes.MASS, normal_modes.STIFFNESS, ends)
     A = np.column_stack([normal_modes.shape(beads, ends, mode) for mode in range(beads)])
     omega, found = by_eigenvalues.normal_modes(T, V)
-    assert pytest.approx(np.eye(beads), abs=1e-13) == A.T @ T @ A
-    assert pytest.approx(np.diag(omega**2), abs=1e-11) == A.T @ V @ A
-    assert np.abs(A.T @ T @ found) == pytest.approx(np.eye(beads), abs=1e-12)
+    np.testing.assert_allclose(A.T @ T @ A, np.eye(beads), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(A.T @ V @ A, np.diag(omega**2), rtol=0, atol=1e-11)
+    np.testing.assert_allclose(np.abs(A.T @ T @ found), np.eye(beads), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("beads", "ends"), CHAINS)
+def test_the_truth_is_that_of_the_eigenvalue_equation(beads, ends):
+    scene = chain(beads, ends)
+    t, T_V = scene.sample_times(), bead_chain.energies(beads, 1.0, 100.0, ends)
+    q, v = by_eigenvalues.motion(*T_V, np.cumsum(scene.q0), np.cumsum(scene.v0), t)
+    motion, rest = scene.truth(scene, t), normal_modes.SPACING * np.arange(1, beads + 1)
+    np.testing.assert_allclose(motion.position[:, :, 0] - rest, q, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(motion.velocity[:, :, 0], v, rtol=0, atol=1e-13)
 
 
 @pytest.mark.parametrize(("beads", "ends"), CHAINS)
