@@ -1,5 +1,7 @@
 """Arguments checked on entry: each function returns a float array or raises ``InputError``."""
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
@@ -17,16 +19,18 @@ def finite(name: str, value: npt.ArrayLike, shape: tuple[int, ...] | None = None
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError) as cause:
         raise InputError(f"{name}: got {value!r}, expected numbers") from cause
-    if shape is not None and not _fits(array.shape, shape):
+    if shape is not None and array.shape != shape and not _fits(array.shape, shape):
         expected = str(shape).replace("-1", "any")
         raise InputError(f"{name}: got an array of shape {array.shape}, expected {expected}")
-    if not np.all(np.isfinite(array)):
+    if not np.isfinite(array).all():
         raise InputError(f"{name}: got {array.tolist()}, expected finite numbers")
     return array
 
 
 def number(name: str, value: npt.ArrayLike) -> float:
     """``value`` as one finite float."""
+    if type(value) is float and math.isfinite(value):
+        return value  # by far the most usual case, and scenes are made of thousands
     return float(finite(name, value, ()))
 
 
@@ -62,7 +66,7 @@ def times(name: str, value: npt.ArrayLike) -> Array:
 def unit_quaternion(name: str, value: npt.ArrayLike) -> Array:
     """``value`` (4,), scalar last, normalised; raises if its norm is off by more than 1e-9."""
     q = finite(name, value, (4,))
-    norm = float(np.linalg.norm(q))
+    norm = math.hypot(*q)
     if abs(norm - 1) > UNIT_TOLERANCE:
         raise InputError(
             f"{name}: got norm {norm}, expected a unit quaternion (x, y, z, w) to {UNIT_TOLERANCE:g}"
@@ -90,10 +94,10 @@ def principal_moments(name: str, value: npt.ArrayLike) -> Array:
     A plate (I3 = I1 + I2) is allowed; four units in the last place are granted to its rounding.
     """
     moments = finite(name, value, (3,))
-    if np.any(moments <= 0):
+    least, middle, largest = sorted(moments.tolist())
+    if least <= 0:
         raise InputError(f"{name}: got {moments.tolist()}, expected three moments above 0")
-    largest = float(moments.max())
-    others = float(np.sort(moments)[:2].sum())
+    others = least + middle
     if largest > others * (1 + 4 * np.finfo(np.float64).eps):
         raise InputError(
             f"{name}: got {moments.tolist()}, whose largest exceeds the sum of the other two, {others}; "

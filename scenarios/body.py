@@ -1,5 +1,6 @@
 """Rigid bodies and the joints that carry them, described once for every engine."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -52,7 +53,7 @@ class Joint:
                 f"joint {self.name!r}: got kind {self.kind!r}, expected one of {', '.join(WIDTHS)}"
             )
         axis = finite(f"joint {self.name!r} axis", self.axis, (3,))
-        if abs(float(np.linalg.norm(axis)) - 1) > 1e-12:
+        if abs(math.hypot(*axis) - 1) > 1e-12:
             raise InputError(f"joint {self.name!r} axis: got {self.axis}, expected a unit vector")
         not_negative(f"joint {self.name!r} stiffness", self.stiffness)
         not_negative(f"joint {self.name!r} damping", self.damping)
@@ -87,12 +88,12 @@ class Body:
         finite(f"body {self.name!r} position", self.position, (3,))
         unit_quaternion(f"body {self.name!r} quaternion", self.quaternion)
         inertia = finite(f"body {self.name!r} inertia", self.inertia, (3, 3))
-        if not np.array_equal(inertia, inertia.T):
+        if (inertia != inertia.T).any():
             raise InputError(
                 f"body {self.name!r} inertia: got {inertia.tolist()}, expected a symmetric tensor"
             )
-        diagonal = np.array_equal(inertia, np.diag(np.diag(inertia)))
-        moments = np.diag(inertia) if diagonal else np.linalg.eigvalsh(inertia)
+        diagonal = np.count_nonzero(inertia) == np.count_nonzero(inertia.diagonal())
+        moments = inertia.diagonal() if diagonal else np.linalg.eigvalsh(inertia)
         principal_moments(f"body {self.name!r} inertia", moments)
         if any(joint.kind == "free" for joint in self.joints) and (len(self.joints) > 1 or self.parent):
             raise InputError(
