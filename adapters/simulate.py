@@ -12,6 +12,7 @@ from ..scenarios.equations import states
 from ..scenarios.scene import FEATURES, Scene
 from ..scenarios.trajectory import Provenance, Trajectory
 from .engine import Engine, EngineError, Scheme, State
+from .stable_step import stable_step
 
 
 class UnsupportedError(InputError):
@@ -33,7 +34,7 @@ def simulate(
     """Run one cell in this process: its trajectory with provenance, and the model text by file name.
 
     The cell is built and run ``repeats`` times; the hashes of all of them go into the provenance, and of
-    a cell that is repeated the engine's accelerations too.
+    a cell that is repeated the engine's accelerations too, and its largest stable step where theory has one.
     ``dt`` [s] is rounded to a whole number of steps between samples. Raises ``UnsupportedError``
     if the engine lacks a feature, ``EngineError`` if it breaks down, ``InputError`` for a step out
     of range.
@@ -52,6 +53,8 @@ def simulate(
         for _ in range(repeats - 1):
             machine.build(scene, scheme, dt)
             digests.append(digest(_record(machine, scene, dt)))
+        sought = repeats > 1 and scene.stable_step is not None
+        limit = tuple(stable_step(machine, scene, scheme)) if sought else ()
     finally:
         machine.close()
     provenance = Provenance(
@@ -67,6 +70,7 @@ def simulate(
         probed=tuple(setup.probed),
         digests=tuple(digests),
         accelerations=accelerations,
+        stable_step=limit,
         settings=dict(engine.settings),
     )
     return replace(first, provenance=provenance), dict([model])

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from ..scenarios.registry import scenes as all_scenes
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Provenance, Trajectory
-from . import acceleration, deviations, order, setup, truth, twin
+from . import acceleration, deviations, order, setup, stability, truth, twin
 from .cell import Cell
 from .deviations import Deviation
 from .verdict import Status, Verdict, ladder_of
@@ -28,7 +28,7 @@ def judge(
     cells = [Cell.of(trajectory, there) for trajectory in trajectories]
     broken = [verdict for cell in cells for verdict in _finite(cell)]
     sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
-    checks = (truth.check, setup.check, setup.determinism, acceleration.check)
+    checks = (truth.check, setup.check, setup.determinism, acceleration.check, stability.check)
     alone = [verdict for cell in sound for check in checks for verdict in check(cell)]
     ladders = [v for group in _grouped(sound, ladder_of) for v in order.check(group)]
     on_record = tuple(deviations.recorded() if known is None else known)

@@ -41,6 +41,7 @@ NEVER_BUILT = ("collision shapes", "contact solver", "actuators", "sensors", "re
 
 Truth = Callable[["Scene", Array], Trajectory]
 SchemeMotion = Callable[["Scene", str, float, Array], Trajectory | None]
+StableStep = Callable[["Scene", str], float | None]
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,9 @@ class Scene:
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
     ``errors[twin]`` are the recorded constants C of the scheme's error C·dt^order, one for each of
-    ``observables``; 0 where only round-off was seen.
+    ``observables``; 0 where only round-off was seen. ``stable_step(scene, twin)`` is the largest step [s]
+    at which a scheme's energy stays bounded, by theory: 0 for none, infinite for any, ``None`` where theory
+    does not tell.
 
     Raises ``InputError`` on loading when something cannot be: the message names scene and field.
     """
@@ -97,6 +100,7 @@ class Scene:
     ladders: Mapping[int | str, tuple[float, ...]] = field(default_factory=dict)
     errors: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     scheme_motion: SchemeMotion | None = None
+    stable_step: StableStep | None = None
     contacts: tuple[Contact, ...] = ()
     soft: Mapping[str, Softness] = field(default_factory=dict)
     forces: tuple[Force, ...] = ()
@@ -194,7 +198,8 @@ class Scene:
 
     def as_json(self) -> str:
         """The scene as JSON, stable from run to run: what the log keeps and a reader compares."""
-        skipped = {"truth", "observables", "pictures", "scheme_motion", "errors", "ladders", "soft"}
+        judged = {"truth", "observables", "scheme_motion", "stable_step", "errors", "ladders", "soft"}
+        skipped = judged | {"pictures"}
         plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
         plain["observables"] = [observable.name for observable in self.observables]
         return json.dumps(plain, default=lambda part: part.__dict__, sort_keys=True)

@@ -18,8 +18,9 @@ class Provenance:
     ``order`` is the scheme's declared order, ``twin`` the name it shares with the same scheme of
     other engines. ``setup`` maps a setting to what the engine read back, ``probed`` names those
     of them that were inferred from a probe run; ``digests`` are hashes of the states of repeated
-    runs, ``accelerations`` (n, nv) the engine's at the states of ``equations.states``, ``settings`` its
-    own settings in words, ``environment`` versions and machine.
+    runs, ``accelerations`` (n, nv) the engine's at the states of ``equations.states``, ``stable_step`` the
+    largest step [s] seen to hold and the smallest seen to grow, ``settings`` its own settings in words,
+    ``environment`` versions and machine.
     """
 
     scene: str
@@ -34,6 +35,7 @@ class Provenance:
     probed: tuple[str, ...] = ()
     digests: tuple[str, ...] = ()
     accelerations: tuple[tuple[float, ...], ...] = ()
+    stable_step: tuple[float, ...] = ()
     settings: Mapping[str, str] = field(default_factory=dict)
     environment: Mapping[str, Any] = field(default_factory=dict)
 

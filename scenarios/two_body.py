@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from ..reference import kepler_orbit, schemes, two_body
+from ..reference import kepler_orbit, scheme_stability, schemes, two_body
 from ..reference.checked import Array
 from . import observables, pictures, spheres
 from .forces import Attraction, Force, Spring
@@ -52,6 +52,10 @@ def _scheme_motion(scene: Scene, twin: str, dt: float, t: Array) -> Trajectory |
     r0, v0 = (part.ravel() for part in spheres.start(scene))
     found = schemes.linear_motion(SCHEMES[twin], T, V, r0, v0, dt, np.rint(t / dt))
     return spheres.flying(scene, t, *(part.reshape(-1, 2, 3) for part in found))
+
+
+def _stable_step(scene: Scene, twin: str) -> float | None:
+    return scheme_stability.largest_stable_step(SCHEMES[twin], _frequency(scene)) if twin in SCHEMES else None
 
 
 def _apart(motion: Trajectory) -> tuple[Array, Array]:
@@ -108,6 +112,7 @@ def _pair(
         samples=25,
         truth=_spring_truth if spring else _orbit_truth,
         scheme_motion=_scheme_motion if spring else None,
+        stable_step=_stable_step if spring else None,
         observables=(
             observables.position(),
             observables.velocity(),

@@ -1,0 +1,190 @@
+"""The largest stable step against theory: right schemes meet it, schemes other than they say do not."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("mujoco")
+pytest.importorskip("pinocchio")
+pytest.importorskip("pybullet")
+
+from poinsot.adapters import pybullet_
+from poinsot.adapters.engine import Scheme
+from poinsot.adapters.mujoco_ import MuJoCo
+from poinsot.adapters.pinocchio_ import Pinocchio
+from poinsot.adapters.pinocchio_schemes import semi_implicit_euler
+from poinsot.adapters.pybullet_ import PyBullet
+from poinsot.adapters.simulate import simulate
+from poinsot.reference import scheme_stability
+from poinsot.reports import stability
+from poinsot.reports.cell import Cell
+from poinsot.reports.stability import TOLERANCE, deviation
+from poinsot.reports.verdict import Status
+from poinsot.scenarios import stiff_spring
+from poinsot.scenarios.registry import scenes
+
+SCENE = stiff_spring.SCENES[0]
+
+
+def judged(engine, scheme=None, scene=SCENE):
+    """The verdict on the engine's largest stable step."""
+    chosen = next((s for s in engine.schemes if s.name == scheme), engine.schemes[0])
+    trajectory, _ = simulate(scene, engine, chosen, scene.dt, repeats=2)
+    (verdict,) = stability.check(Cell.of(trajectory, {scene.full_name: scene}))
+    return verdict
+
+
+@pytest.mark.parametrize(
+    ("engine", "scheme"),
+    [
+        *((MuJoCo, name) for name in ("Euler", "RK4", "discrete")),
+        *((Pinocchio, name) for name in ("semi-implicit Euler", "RKMK4")),
+        (PyBullet, "reduced coordinates"),
+    ],
+)
+def test_right_schemes_meet_theory(engine, scheme):
+    verdict = judged(engine, scheme)
+    assert verdict.status is Status.PASS, verdict.message
+    assert verdict.measured <= TOLERANCE
+    assert verdict.check == "stability"
+
+
+def test_maximal_coordinates_meet_it_between_two_bodies():
+    verdict = judged(PyBullet, "maximal coordinates", scenes()["two_body[spring]"])
+    assert verdict.status is Status.PASS, verdict.message
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e6, 1e10])
+def test_the_limit_follows_the_stiffness(stiffness):
+    scene = stiff_spring.on_spring(stiffness)
+    trajectory, _ = simulate(scene, Pinocchio, Pinocchio.schemes[0], scene.dt, repeats=2)
+    # ωdt at the limit is 2 whatever the spring, to what the halving leaves open.
+    assert stability.between(*trajectory.provenance.stable_step) * np.sqrt(stiffness) == pytest.approx(
+        2.0, rel=5e-3
+    )
+
+
+class ExplicitSprings(MuJoCo):
+    """Says that it treats springs implicitly, and does not."""
+
+    schemes = tuple(scheme for scheme in MuJoCo.schemes if scheme.name == "discrete")
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, MuJoCo.schemes[0], dt)
+
+
+class SubSteps(Pinocchio):
+    """Takes four smaller steps for each."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt / 4)
+
+    def step(self, n):
+        super().step(4 * n)
+
+
+class Clamped(PyBullet):
+    """Leaves PyBullet's clamp of velocities where it is by default."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        for uid in self._world._at.hinged:
+            pybullet_.p.changeDynamics(uid, -1, maxJointVelocity=100, physicsClientId=self._world.client)
+
+
+class OldVelocity(Pinocchio):
+    """Explicit Euler under the name of semi-implicit Euler: it grows at any step."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+
+        def explicit(system, q, v, dt, n):
+            for _ in range(n):
+                old = v
+                v = v + dt * system.accelerate(q, v, system.force(q, v))
+                q = system.integrate(q, dt * old)
+            return q, v
+
+        self._advance = explicit
+
+
+class Damped(Pinocchio):
+    """Semi-implicit Euler that takes a tenth of the velocity away at each step."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+
+        def damped(system, q, v, dt, n):
+            for _ in range(n):
+                q, v = semi_implicit_euler(system, q, 0.9 * v, dt, 1)
+            return q, v
+
+        self._advance = damped
+
+
+@pytest.mark.parametrize(
+    ("engine", "said"),
+    [
+        (ExplicitSprings, "by theory at any step"),
+        (SubSteps, "beyond what the scheme can do"),
+        (Clamped, "beyond what the scheme can do"),
+        (OldVelocity, "by theory up to 0.0002 s"),
+    ],
+)
+def test_wrong_engines_fail(engine, said):
+    verdict = judged(engine)
+    assert verdict.status is Status.FAIL
+    assert said in verdict.message
+    assert not verdict.measured <= TOLERANCE
+
+
+def test_hidden_damping_moves_the_limit():
+    # λ² − (1.9 − z²)λ + 0.9 = 0 has its root −1 at z = √3.8 instead of 2.
+    verdict = judged(Damped)
+    assert verdict.status is Status.FAIL
+    assert verdict.measured == pytest.approx(1 - np.sqrt(3.8) / 2, rel=0.1)
+
+
+def test_a_scheme_without_theory_is_measured_and_not_judged():
+    class Unknown(Pinocchio):
+        schemes = (Scheme("semi-implicit Euler", 1, "one's own", {}),)
+
+    verdict = judged(Unknown)
+    assert verdict.status is Status.UNSUPPORTED
+    assert "measured: energy stays bounded up to a step of 0.00" in verdict.message
+
+
+def test_nothing_is_said_where_nothing_was_sought():
+    trajectory, _ = simulate(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.dt, repeats=1)
+    assert trajectory.provenance.stable_step == ()
+    assert stability.check(Cell.of(trajectory, {SCENE.full_name: SCENE})) == []
+
+
+@pytest.mark.parametrize(
+    ("held", "grew", "limit", "expected"),
+    [
+        (1.99, 2.01, 2.0, 1.25e-5),
+        (1.0, math.inf, math.inf, 0.0),
+        (0.0, 0.1, 0.0, 0.0),
+        (1.0, math.inf, 2.0, math.inf),
+        (1.0, 1.1, math.inf, math.inf),
+        (0.0, 0.1, 2.0, math.inf),
+        (0.1, 0.2, 0.0, math.inf),
+    ],
+)
+def test_deviation(held, grew, limit, expected):
+    assert deviation(held, grew, limit) == pytest.approx(expected, rel=1e-2)
+
+
+def test_what_the_scenes_expect_is_theory():
+    for name in ("stiff_spring", "two_body[spring]"):
+        scene = scenes()[name]
+        (rate,) = [observable for observable in scene.observables if observable.name == "frequency"]
+        omega = rate.scale(scene, None)
+        expected = scheme_stability.largest_stable_step("rk4", omega)
+        assert scene.stable_step(scene, "RKMK4") == expected
+        assert scene.stable_step(scene, "no such scheme") is None
+    softer = replace(SCENE, bodies=stiff_spring.on_spring(1e6).bodies)
+    assert softer.stable_step(softer, "semi-implicit Euler") == 2e-3
