@@ -101,10 +101,11 @@ def report(folder: Path) -> int:
     folder
         What `poinsot run` wrote.
     """
+    from .adapters.runner import cores
     from .main_job import again
     from .reports.results import exit_code
 
-    found = again(folder)
+    found = again(folder, cores())
     _show(found, folder)
     return exit_code(found)
 

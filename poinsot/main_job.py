@@ -12,15 +12,13 @@ from .adapters import log, runner
 from .adapters.environment import environment
 from .adapters.runner import Request
 from .adapters.timing import SPREAD, Timing
+from .judging import judged
 from .plan import Extent, Plan
 from .reference.errors import InputError
-from .reports import deviations, order, results, truth
-from .reports.cell import Cell
-from .reports.judge import judge
+from .reports import deviations, results
 from .reports.results import CellRecord, Key
 from .reports.verdict import Status
 from .scenarios.registry import scenes as all_scenes
-from .scenarios.trajectory import Trajectory
 
 LOGS = "logs"
 
@@ -76,7 +74,7 @@ def run(
         "workers": workers,
         "seconds": round(perf_counter() - clock, 1),
     }
-    return report(folder, records, seconds, facts, [*noted, *untimed])
+    return report(folder, records, seconds, facts, [*noted, *untimed], workers)
 
 
 def report(
@@ -85,37 +83,32 @@ def report(
     seconds: Mapping[Key, Mapping[str, Any]],
     facts: Mapping[str, Any],
     notes: Sequence[str],
+    workers: int,
 ) -> dict[str, Any]:
     """Judge the logs of ``folder`` and write every page; needs no engine.
 
     Raises ``CorruptLog`` for a log that is not what was written.
     """
-    from .reports import pages  # plotly and jinja2 load only when there is something to show
+    from .reports import pages  # jinja2 and plotly load only when there is something to show
 
-    known = all_scenes()
-    motions = {record.key: _read(folder, record) for record in records if record.log}
-    cells = [Cell.of(motion, known) for motion in motions.values()]
-    silent = [_unjudged(cell, missing) for cell in cells if (missing := truth.without_constant(cell))]
-    verdicts = judge(motions.values())
+    came = judged(folder, records, seconds, workers)
     stale = (
-        deviations.unmatched(verdicts, deviations.recorded(), order.partly(cells))
-        if facts.get("whole")
-        else []
+        deviations.unmatched(came.verdicts, deviations.recorded(), came.partly) if facts.get("whole") else []
     )
     found = results.results(
         records,
-        verdicts,
-        results.precision_rows(cells, seconds),
-        known,
+        came.verdicts,
+        came.rows,
+        all_scenes(),
         facts,
-        list(dict.fromkeys([*notes, *silent])),
+        list(dict.fromkeys([*notes, *came.notes])),
         stale,
     )
-    pages.write(folder, found, cells)
+    pages.write(folder, found, came.pictures)
     return found
 
 
-def again(folder: Path) -> dict[str, Any]:
+def again(folder: Path, workers: int = 1) -> dict[str, Any]:
     """Judge and report the logs of an earlier run once more.
 
     What left no log, and the run times, are taken from its ``results.json``. Raises ``InputError``
@@ -130,17 +123,16 @@ def again(folder: Path) -> dict[str, Any]:
     if earlier.is_file():
         found = results.read(earlier)
         return report(
-            folder, results.records_of(found), results.timings_of(found), found["environment"], found["notes"]
+            folder,
+            results.records_of(found),
+            results.timings_of(found),
+            found["environment"],
+            found["notes"],
+            workers,
         )
     records = [_record_of(path) for path in logs]
-    return report(folder, records, {}, environment(), ["There was no results.json: run times are not known."])
-
-
-def _unjudged(cell: Cell, observables: Sequence[str]) -> str:
-    p = cell.provenance
-    return (
-        f"{p.engine} {p.scheme} in {p.scene} at dt {p.dt:g} s: no error constant is recorded for "
-        f"{', '.join(observables)}; judged by order and limit alone."
+    return report(
+        folder, records, {}, environment(), ["There was no results.json: run times are not known."], workers
     )
 
 
@@ -219,16 +211,6 @@ def _own_step(record: CellRecord, records: Sequence[CellRecord]) -> bool:
     dt = all_scenes()[record.scene].dt
     ladder = [other.dt for other in records if other.key[:3] == record.key[:3]]
     return record.dt == min(ladder, key=lambda step: abs(log2(step / dt)))
-
-
-def _read(folder: Path, record: CellRecord) -> Trajectory:
-    logged = log.read(folder / str(record.log))
-    if record.scene not in all_scenes() or logged.scene_json != all_scenes()[record.scene].as_json():
-        raise InputError(
-            f"{record.log}: got a scene {record.scene} that is not the one this Poinsot knows by that name; "
-            "report it with the version that ran it, or run it again"
-        )
-    return logged.trajectory
 
 
 def _record_of(path: Path) -> CellRecord:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -127,7 +127,7 @@ class Digest:
         self.scenes: dict[str, Record] = dict(results["scenes"])
         for cell in self.cells:
             self.scenes.setdefault(cell["scene"], {})
-        self.columns = _columns(self.cells)
+        self.columns = columns(self.cells)
         self.groups = self._grouped()
 
     def _grouped(self) -> dict[tuple[str, Column], Group]:
@@ -205,7 +205,8 @@ def _scheme_of(cell: Record) -> tuple[str, str, str]:
     return cell["engine"], cell["engine_version"] or "", cell["scheme"]
 
 
-def _columns(cells: tuple[Record, ...]) -> tuple[Column, ...]:
+def columns(cells: Iterable[Record]) -> tuple[Column, ...]:
+    """What the cells of results.json were run in, engine by engine, in the order in which they name them."""
     by_engine: dict[str, dict[tuple[str, str, str], Record]] = {}
     for cell in cells:
         by_engine.setdefault(cell["engine"], {}).setdefault(_scheme_of(cell), cell)

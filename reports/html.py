@@ -1,6 +1,6 @@
 """The report as one HTML file: opens offline, reads on a phone and on paper, asks for nothing."""
 
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -15,20 +15,18 @@ from ..scenarios.scene import FEATURES
 from .cheapest import cheapest
 from .digest import Column, Digest, Group, Record
 from .findings import findings
-from .plots import Motion, cost_figure, motion_figures
+from .plots import Figure, cost_figure
 from .verdict import Status
 from .wording import GLYPHS, NOT_RUN, PARTIAL, count, number, printable, steps
 
 
-def render(results: Record, motions: Iterable[Motion], out: Path) -> None:
+def render(results: Record, pictures: Mapping[str, Sequence[Figure]], out: Path) -> None:
     """Write the report on ``results`` (the content of results.json) to the file ``out``.
 
-    ``motions`` bring the pictures: scenes of ``results``, each with trajectories of schemes that
-    ``results`` has cells of. Equal input gives equal bytes. Raises ``InputError`` if ``results``
-    has another schema.
+    ``pictures`` are those of ``plots.motion_figures``, by scene. Equal input gives equal bytes. Raises
+    ``InputError`` if ``results`` has another schema.
     """
     digest = Digest(results)
-    pictures = {motion.scene.full_name: motion_figures(motion, digest.columns) for motion in motions}
     text = (
         _environment()
         .get_template("report.html.j2")

@@ -91,6 +91,11 @@ def results(
     }
 
 
+def cells(records: Iterable[CellRecord]) -> list[dict[str, Any]]:
+    """The cells of results.json before anything was judged."""
+    return [_cell(record, ()) for record in records]
+
+
 def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Error against run time: one row a cell and observable; times are null where none was taken."""
     untimed = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0}

@@ -10,6 +10,7 @@ from urllib.parse import unquote
 import pytest
 from poinsot.reports import html
 from poinsot.reports.digest import Digest
+from poinsot.reports.plots import motion_figures
 from poinsot.reports.verdict import Status
 from poinsot.reports.wording import GLYPHS
 
@@ -46,10 +47,15 @@ class Page(HTMLParser):
         return " ".join(" ".join(self.text).split())
 
 
+def drawn(results, motions):
+    columns = Digest(results).columns
+    return {motion.scene.full_name: motion_figures(motion, columns) for motion in motions}
+
+
 @pytest.fixture(scope="module")
 def file(results, moved, tmp_path_factory):
     out = tmp_path_factory.mktemp("report") / "report.html"
-    html.render(results, moved(tuple(results["scenes"])), out)
+    html.render(results, drawn(results, moved(tuple(results["scenes"]))), out)
     return out
 
 
@@ -59,7 +65,7 @@ def page(file):
 
 
 def rendered(results, tmp_path, motions=()):
-    html.render(results, motions, tmp_path / "report.html")
+    html.render(results, drawn(results, motions), tmp_path / "report.html")
     return (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
@@ -154,7 +160,7 @@ def test_each_figure_carries_its_data(page):
 
 def test_equal_input_gives_equal_bytes(results, moved, file, tmp_path):
     again = json.loads(json.dumps(results))
-    html.render(again, moved(tuple(results["scenes"])), tmp_path / "report.html")
+    html.render(again, drawn(results, moved(tuple(results["scenes"]))), tmp_path / "report.html")
     assert (tmp_path / "report.html").read_bytes() == file.read_bytes()
 
 

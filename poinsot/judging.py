@@ -1,0 +1,113 @@
+"""Logs judged scene by scene, as many at once as there are cores: no check looks beyond its scene."""
+
+import multiprocessing
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from .adapters import log
+from .reference.errors import InputError
+from .reports import order, results, truth
+from .reports.cell import Cell
+from .reports.digest import Column, columns
+from .reports.judge import judge
+from .reports.plots import Figure, Motion, motion_figures
+from .reports.results import CellRecord, Key
+from .reports.verdict import Ladder, Verdict
+from .scenarios.registry import scenes as all_scenes
+from .scenarios.trajectory import Trajectory
+
+
+@dataclass
+class Judged:
+    """What the logs of one scene, or of several, came to."""
+
+    verdicts: list[Verdict] = field(default_factory=list)
+    rows: list[dict[str, Any]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    partly: set[Ladder] = field(default_factory=set)
+    pictures: dict[str, list[Figure]] = field(default_factory=dict)
+
+    def add(self, other: "Judged") -> None:
+        """Append what another scene came to."""
+        self.verdicts += other.verdicts
+        self.rows += other.rows
+        self.notes += other.notes
+        self.partly |= other.partly
+        self.pictures |= other.pictures
+
+
+def judged(
+    folder: Path, records: Sequence[CellRecord], seconds: Mapping[Key, Mapping[str, Any]], workers: int
+) -> Judged:
+    """Every log of ``records``, read from ``folder`` and judged; ``workers`` processes, or this one alone.
+
+    Raises ``CorruptLog`` for a log that is not what was written, ``InputError`` for one of another scene.
+    """
+    by_scene: dict[str, list[CellRecord]] = defaultdict(list)
+    for record in records:
+        if record.log:
+            by_scene[record.scene].append(record)
+    work = partial(_judged, folder, columns(results.cells(records)), dict(seconds))
+    found = Judged()
+    for one in _mapped(work, list(by_scene.values()), min(workers, len(by_scene))):
+        found.add(one)
+    return found
+
+
+def _mapped(
+    work: Callable[[list[CellRecord]], Judged], parts: Sequence[list[CellRecord]], workers: int
+) -> Iterator[Judged]:
+    """``work`` on each part, in order."""
+    if workers <= 1:
+        yield from map(work, parts)
+        return
+    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
+        yield from pool.map(work, parts)
+
+
+def _judged(
+    folder: Path,
+    every: Sequence[Column],
+    seconds: Mapping[Key, Mapping[str, Any]],
+    records: Sequence[CellRecord],
+) -> Judged:
+    known = all_scenes()
+    motions = [_read(folder, record) for record in records]
+    cells = [Cell.of(motion, known) for motion in motions]
+    return Judged(
+        verdicts=judge(motions),
+        rows=results.precision_rows(cells, seconds),
+        notes=[_without(cell, missing) for cell in cells if (missing := truth.without_constant(cell))],
+        partly=order.partly(cells),
+        pictures={records[0].scene: motion_figures(_shown(cells), every)},
+    )
+
+
+def _shown(cells: Sequence[Cell]) -> Motion:
+    """What the pictures of a scene show of its cells: every scheme at the scene's own step, if it was run."""
+    scene = cells[0].scene
+    own = [cell for cell in cells if cell.provenance.dt == scene.whole_step(scene.dt)]
+    return Motion(scene, tuple(cell.trajectory for cell in own or cells))
+
+
+def _without(cell: Cell, observables: Collection[str]) -> str:
+    p = cell.provenance
+    return (
+        f"{p.engine} {p.scheme} in {p.scene} at dt {p.dt:g} s: no error constant is recorded for "
+        f"{', '.join(observables)}; judged by order and limit alone."
+    )
+
+
+def _read(folder: Path, record: CellRecord) -> Trajectory:
+    logged = log.read(folder / str(record.log))
+    if record.scene not in all_scenes() or logged.scene_json != all_scenes()[record.scene].as_json():
+        raise InputError(
+            f"{record.log}: got a scene {record.scene} that is not the one this Poinsot knows by that name; "
+            "report it with the version that ran it, or run it again"
+        )
+    return logged.trajectory
