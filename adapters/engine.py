@@ -52,7 +52,8 @@ class Setup(NamedTuple):
     the scene's body axes; of every hinge and slide ``joint/NAME/stiffness`` and
     ``joint/NAME/damping``; of every contact ``contact/NAME/friction`` and
     ``contact/NAME/restitution``; of the world ``gravity`` (3,) [m/s²], ``dt`` [s], ``velocity_limit``
-    (inf: none), ``linear_damping`` and ``angular_damping`` [1/s].
+    (inf: none), ``linear_damping`` and ``angular_damping`` [1/s]. Where an engine counts what its
+    model holds, ``built/PART`` for the parts of ``scenarios.parts``.
     ``probed`` names the settings that cannot be read back and were inferred from a probe run.
     """
 

@@ -17,6 +17,7 @@ from .mujoco_burning import Masses
 from .mujoco_contact import add_contacts, told
 from .mujoco_forces import Forces
 from .mujoco_mjcf import mjcf
+from .mujoco_parts import built
 
 #: Where a joint's coordinates lie among MuJoCo's, whose quaternions are scalar-first.
 _PLACES = {"free": (0, 1, 2, 4, 5, 6, 3), "ball": (1, 2, 3, 0), "hinge": (0,), "slide": (0,)}
@@ -136,7 +137,7 @@ class MuJoCo:
         for joint, v in zip(self._scene.scalar_joints, self._scalar_v, strict=True):
             values[f"joint/{joint.name}/stiffness"] = float(model.jnt_stiffness[model.dof_jntid[v]])
             values[f"joint/{joint.name}/damping"] = float(model.dof_damping[v])
-        return Setup({**values, **told(model, self._scene)})
+        return Setup({**values, **told(model, self._scene), **built(mujoco, model)})
 
     def acceleration(self, q: Array, v: Array) -> Array:
         """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.

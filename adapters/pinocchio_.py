@@ -16,6 +16,7 @@ from .pinocchio_burning import Masses
 from .pinocchio_contact import Contacts
 from .pinocchio_forces import joint_forces
 from .pinocchio_json import model_json
+from .pinocchio_parts import built
 from .pinocchio_schemes import Advance, Mechanism, implicit_gyroscopic, rkmk4, semi_implicit_euler
 
 _ADVANCE: dict[str, Advance] = {
@@ -116,7 +117,7 @@ class Pinocchio:
         for contact in self._scene.contacts:  # ours, so that there is nothing to read back
             values[f"contact/{contact.name}/friction"] = contact.friction
             values[f"contact/{contact.name}/restitution"] = contact.restitution
-        return Setup(values)
+        return Setup(values | built(pin, self._model, self._contacts))
 
     def acceleration(self, q: Array, v: Array) -> Array:
         """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.
@@ -181,9 +182,9 @@ class Pinocchio:
             return data.M, data.dtau_dv - self._drag
 
         balls = [int(model.idx_vs[i]) for i in range(1, model.njoints) if model.nqs[i] == 4]
-        scene, frames, touch = self._scene, self._frames, None
-        if scene.contacts:
-            touch = Contacts(pin, model, scene, frames, self._dt).after
+        scene, frames = self._scene, self._frames
+        self._contacts = Contacts(pin, model, scene, frames, self._dt) if scene.contacts else None
+        touch = self._contacts.after if self._contacts else None
         return Mechanism(
             force, partial(pin.aba, model, data), partial(pin.integrate, model), linearised, balls, touch
         )

@@ -20,7 +20,7 @@ class Contacts:
     def __init__(self, pin: Any, model: Any, scene: Scene, frames: Sequence[Any], dt: float) -> None:
         self._pin, self._model, self._data, self._dt = pin, model, model.createData(), dt
         at = {body.name: frame for body, frame in zip(scene.bodies, frames, strict=True)}
-        self._pairs = [(c, at[c.first], at[c.second] if c.second else None) for c in scene.contacts]
+        self.pairs = [(c, at[c.first], at[c.second] if c.second else None) for c in scene.contacts]
         self._above = np.triu_indices(model.nv, 1)
         self._settings = pin.PGSSolverSettings()
         self._settings.max_iterations = SWEEPS
@@ -36,7 +36,7 @@ class Contacts:
         pin, model, data = self._pin, self._model, self._data
         pin.computeJointJacobians(model, data, q)
         models, datas, offsets = pin.StdVec_ConstraintModel(), pin.StdVec_ConstraintData(), []
-        for contact, first, second in self._pairs:
+        for contact, first, second in self.pairs:
             found = self._touching(contact, first, second)
             if found.gap > 0 and not contact.friction:
                 continue  # a blow falls in the first step that begins inside

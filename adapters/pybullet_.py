@@ -17,6 +17,7 @@ from ..scenarios.scene import FEATURES, Scene
 from . import pybullet_blows as blows
 from . import pybullet_contact as contact
 from . import pybullet_limits as limits
+from . import pybullet_parts as parts
 from . import pybullet_probes as probes
 from .c_output import caught
 from .engine import Scheme, Setup, State
@@ -53,10 +54,7 @@ class PyBullet:
         self._clients: dict[str, int] = {}
 
     def build(self, scene: Scene, scheme: Scheme, dt: float) -> None:
-        """Build ``scene`` at its initial state.
-
-        Raises ``InputError`` for what PyBullet would drop without a word: ``pybullet_limits``.
-        """
+        """Build ``scene`` at its initial state; raises ``InputError`` as ``pybullet_limits`` says."""
         self._maximal = scheme.name == _MAXIMAL
         limits.refuse(scene, scheme, self._maximal)
         self._scene, self._untouched = scene, probes.without(scene)
@@ -78,15 +76,16 @@ class PyBullet:
     def readback(self) -> Setup:
         """How PyBullet is set up: what it tells, and what a copy of the scene does when it is moved."""
         scene, numbers = self._scene, range(len(self._scene.scalar_joints))
-        tried = probes.of_world(scene, self._loaded(self._bare).change)
+        bare = self._loaded(self._bare)
+        tried = probes.of_world(scene, bare.change) | parts.busy(p, bare.client, scene, bare.change)
         displaced = [self._response(i, probes.displaced(scene, i)) for i in numbers]
         resting = [self._response(i, probes.rest(scene)) for i in numbers]
-        pulled = self._loaded(probes.without(scene, "gravity"))
-        tried |= probes.of_joints(scene, pulled.change, displaced, resting)
+        pulled = self._loaded(probes.without(scene, "gravity")).change
+        tried |= probes.of_joints(scene, pulled, displaced, resting)
         if self._maximal and scene.contacts:
             floating = replace(scene, gravity=(0, 0, 0), forces=())
             tried |= blows.of_contacts(scene, self._loaded(floating).change)
-        return Setup({**self._world.told(), **tried}, tuple(tried))
+        return Setup(self._world.told() | tried, tuple(tried))
 
     def acceleration(self, q: Array, v: Array) -> Array:
         """Generalised accelerations (nv,) at ``q`` and ``v``, laid out as the scene's ``q0`` and ``v0``.
@@ -131,7 +130,7 @@ class _World:
     """A scene in one of PyBullet's clients."""
 
     def __init__(self, client: int, scene: Scene, maximal: bool, dt: float) -> None:
-        self.client, self.scene, self.dt, self._size = client, scene, dt, 0
+        self.client, self.scene, self.dt, self._size, self._maximal = client, scene, dt, 0, maximal
         p.resetSimulation(physicsClientId=client)
         p.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=client)
         p.setGravity(*scene.gravity, physicsClientId=client)
@@ -218,7 +217,8 @@ class _World:
         for body, place, center, axes in bodies:
             mass, _, moments, *_ = p.getDynamicsInfo(*place, self.client)
             values |= of_inertia(body.name, mass, moments, center, axes)
-        return values | contact.told(p, self.client, self.scene, self._pairs)
+        counted = parts.built(p, self.client, self._maximal)
+        return {**values, **contact.told(p, self.client, self.scene, self._pairs), **counted}
 
     def _batch(self, size: int) -> None:
         """Make a call of so many steps."""

@@ -1,10 +1,11 @@
 """Setup: what the engine read back is what the scene asked for; and determinism: the same bits twice."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
 
+from ..scenarios.parts import BUILT, PARTS, parts
 from ..scenarios.scene import Scene
 from .cell import Cell
 from .verdict import Status, Verdict
@@ -18,7 +19,7 @@ UNLIMITED = 1e6
 def check(cell: Cell) -> list[Verdict]:
     """One verdict on every setting that is not as asked, or one on all of them."""
     got = cell.provenance.setup
-    asked = expected(cell.scene, cell.provenance.dt)
+    asked = {**expected(cell.scene, cell.provenance.dt), **counted(cell.scene, got)}
     errors = {name: _error(name, got.get(name), value) for name, value in asked.items()}
     wrong = {name: error for name, error in errors.items() if not error <= TOLERANCE}
     if wrong:
@@ -28,7 +29,7 @@ def check(cell: Cell) -> list[Verdict]:
         ]
     return [
         cell.verdict(
-            "setup", "all settings", Status.PASS, f"{len(asked)} settings are as asked{_inferred(cell)}",
+            "setup", "all settings", Status.PASS, _praise(asked) + _inferred(cell),
             max(errors.values()), TOLERANCE, "1",
         )
     ]  # fmt: skip
@@ -68,6 +69,17 @@ def expected(scene: Scene, dt: float) -> Mapping[str, Any]:
     return asked
 
 
+def counted(scene: Scene, told: Collection[str]) -> dict[str, int]:
+    """What a model of ``scene`` may hold, of those parts that its engine counts: ``scenarios.parts``."""
+    return {BUILT + name: number for name, number in parts(scene).items() if BUILT + name in told}
+
+
+def _praise(asked: Collection[str]) -> str:
+    kinds = sum(name.startswith(BUILT) for name in asked)
+    lean = f", and of {kinds} kinds of parts the model has what the scene needs and no more" if kinds else ""
+    return f"{len(asked) - kinds} settings are as asked{lean}"
+
+
 def _error(name: str, got: Any, asked: Any) -> float:
     """Difference relative to what was asked for; infinite if there is no comparable answer."""
     try:
@@ -85,6 +97,10 @@ def _error(name: str, got: Any, asked: Any) -> float:
 def _difference(cell: Cell, name: str, asked: Mapping[str, Any]) -> str:
     got = cell.provenance.setup.get(name, "nothing")
     probed = ", inferred from a probe run" if name in cell.provenance.probed else ""
+    if name.startswith(BUILT):
+        return (
+            f"{PARTS[name.removeprefix(BUILT)]}: the model has {got}{probed}, the scene needs {asked[name]}"
+        )
     return f"{name}: the engine has {got}{probed}, the scene asks for {asked[name]}"
 
 

@@ -8,7 +8,9 @@ import pytest
 from poinsot.adapters.engine import EngineError
 from poinsot.adapters.pinocchio_ import Pinocchio
 from poinsot.reference import equations_of_motion
+from poinsot.reports.setup import counted
 from poinsot.scenarios.body import Body, Joint, diagonal
+from poinsot.scenarios.parts import BUILT
 from scipy.spatial.transform import Rotation
 
 SCHEMES = {scheme.name: scheme for scheme in Pinocchio.schemes}
@@ -276,6 +278,8 @@ def test_readback_is_the_scene(random_tree, seed):
         assert said.pop(f"joint/{joint.name}/stiffness") == joint.stiffness
         assert said.pop(f"joint/{joint.name}/damping") == joint.damping
     assert said.pop("gravity").tolist() == list(scene.gravity)
+    asked = {name: said.pop(name) for name in list(said) if name.startswith(BUILT)}
+    assert asked == counted(scene, asked)
     assert said == {"dt": 2e-3, "velocity_limit": np.inf, "linear_damping": 0.0, "angular_damping": 0.0}
 
 

@@ -229,6 +229,8 @@ def test_what_was_tried_out_is_said(build, hung):
         "velocity_limit",
         "joint/joint/stiffness",
         "joint/joint/damping",
+        "built/actuators",
+        "built/sensors",
     }
     assert set(setup.probed) == tried
 
