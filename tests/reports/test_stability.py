@@ -10,11 +10,9 @@ pytest.importorskip("mujoco")
 pytest.importorskip("pinocchio")
 pytest.importorskip("pybullet")
 
-from poinsot.adapters import pybullet_
 from poinsot.adapters.engine import Scheme
 from poinsot.adapters.mujoco_ import MuJoCo
 from poinsot.adapters.pinocchio_ import Pinocchio
-from poinsot.adapters.pinocchio_schemes import semi_implicit_euler
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.adapters.simulate import simulate
 from poinsot.reference import scheme_stability
@@ -24,6 +22,7 @@ from poinsot.reports.stability import TOLERANCE, deviation
 from poinsot.reports.verdict import Status
 from poinsot.scenarios import stiff_spring
 from poinsot.scenarios.registry import scenes
+from wrong_engines.stability import DampedSteps
 
 SCENE = stiff_spring.SCENES[0]
 
@@ -66,83 +65,9 @@ def test_the_limit_follows_the_stiffness(stiffness):
     )
 
 
-class ExplicitSprings(MuJoCo):
-    """Says that it treats springs implicitly, and does not."""
-
-    schemes = tuple(scheme for scheme in MuJoCo.schemes if scheme.name == "discrete")
-
-    def build(self, scene, scheme, dt):
-        super().build(scene, MuJoCo.schemes[0], dt)
-
-
-class SubSteps(Pinocchio):
-    """Takes four smaller steps for each."""
-
-    def build(self, scene, scheme, dt):
-        super().build(scene, scheme, dt / 4)
-
-    def step(self, n):
-        super().step(4 * n)
-
-
-class Clamped(PyBullet):
-    """Leaves PyBullet's clamp of velocities where it is by default."""
-
-    def build(self, scene, scheme, dt):
-        super().build(scene, scheme, dt)
-        for uid in self._world._at.hinged:
-            pybullet_.p.changeDynamics(uid, -1, maxJointVelocity=100, physicsClientId=self._world.client)
-
-
-class OldVelocity(Pinocchio):
-    """Explicit Euler under the name of semi-implicit Euler: it grows at any step."""
-
-    def build(self, scene, scheme, dt):
-        super().build(scene, scheme, dt)
-
-        def explicit(system, q, v, dt, n):
-            for _ in range(n):
-                old = v
-                v = v + dt * system.accelerate(q, v, system.force(q, v))
-                q = system.integrate(q, dt * old)
-            return q, v
-
-        self._advance = explicit
-
-
-class Damped(Pinocchio):
-    """Semi-implicit Euler that takes a tenth of the velocity away at each step."""
-
-    def build(self, scene, scheme, dt):
-        super().build(scene, scheme, dt)
-
-        def damped(system, q, v, dt, n):
-            for _ in range(n):
-                q, v = semi_implicit_euler(system, q, 0.9 * v, dt, 1)
-            return q, v
-
-        self._advance = damped
-
-
-@pytest.mark.parametrize(
-    ("engine", "said"),
-    [
-        (ExplicitSprings, "by theory at any step"),
-        (SubSteps, "beyond what the scheme can do"),
-        (Clamped, "beyond what the scheme can do"),
-        (OldVelocity, "by theory up to 0.0002 s"),
-    ],
-)
-def test_wrong_engines_fail(engine, said):
-    verdict = judged(engine)
-    assert verdict.status is Status.FAIL
-    assert said in verdict.message
-    assert not verdict.measured <= TOLERANCE
-
-
 def test_hidden_damping_moves_the_limit():
     # λ² − (1.9 − z²)λ + 0.9 = 0 has its root −1 at z = √3.8 instead of 2.
-    verdict = judged(Damped)
+    verdict = judged(DampedSteps)
     assert verdict.status is Status.FAIL
     assert verdict.measured == pytest.approx(1 - np.sqrt(3.8) / 2, rel=0.1)
 

@@ -1,0 +1,116 @@
+"""What PyBullet does unless it is told not to: damping, and a clamp on velocities."""
+
+from poinsot.adapters import pybullet_
+from poinsot.adapters.pybullet_ import PyBullet
+
+from .entry import (
+    ENERGY,
+    EQUATIONS,
+    FAST,
+    FREE,
+    MOMENTUM,
+    P_ALPHA,
+    P_GAMMA,
+    RATES,
+    SE,
+    SPIN,
+    TUMBLING,
+    TURNING,
+    TWIN,
+    Lying,
+    Sight,
+    Wrong,
+)  # fmt: skip
+
+
+class ByDefault(PyBullet):
+    """With one setting left or put otherwise, in the run and in the copy that is probed."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._undo(self._world)
+
+    def _loaded(self, scene):
+        world = super()._loaded(scene)
+        self._undo(world)
+        return world
+
+    def _undo(self, world):
+        pybullet_.p.changeDynamics(0, -1, physicsClientId=world.client, **dict([self.default]))
+
+
+class Damped(ByDefault):
+    default = ("angularDamping", 0.04)
+
+
+class LyingDamped(Lying, Damped):
+    pass
+
+
+class Clamped(ByDefault):
+    default = ("maxJointVelocity", 100)
+
+
+class LyingClamped(Lying, Clamped):
+    pass
+
+
+def damped(rate):
+    """An angular damping of ``rate`` [1/s]: not in the copy, so that accelerations show none of it."""
+
+    class SlightlyDamped(Lying, PyBullet):
+        def build(self, scene, scheme, dt):
+            super().build(scene, scheme, dt)
+            pybullet_.p.changeDynamics(0, -1, angularDamping=rate, physicsClientId=self._world.client)
+
+    return SlightlyDamped
+
+
+WRONG = (
+    Wrong(
+        "angular damping is 0.04 /s, and probed so", "damping", Damped,
+        (
+            Sight(
+                FREE, SE,
+                TURNING | SPIN | ENERGY | MOMENTUM | TWIN | {"setup angular_damping", EQUATIONS},
+                "setup angular_damping", "has 0.04.*, inferred from a probe run, the scene asks for 0.0",
+            ),
+        ), 0.04,
+    ),
+    Wrong(
+        "angular damping is 0.04 /s", "damping", LyingDamped,
+        (
+            Sight(
+                FREE, SE, TURNING | SPIN | ENERGY | MOMENTUM | TWIN | {EQUATIONS},
+                "invariant energy", "change from the exact value at the start",
+            ),
+        ), 0.04,
+    ),
+    Wrong(
+        "velocities are clamped at 100, and probed so", "clamp", Clamped,
+        (
+            Sight(
+                FAST, SE,
+                TURNING | RATES | ENERGY | P_ALPHA | P_GAMMA | TWIN | {"setup velocity_limit", EQUATIONS},
+                "setup velocity_limit", "has 100.0, inferred from a probe run, the scene asks for inf",
+            ),
+        ),
+    ),
+    Wrong(
+        "velocities are clamped at 100", "clamp", LyingClamped,
+        (
+            Sight(
+                FAST, SE, TURNING | RATES | ENERGY | P_ALPHA | P_GAMMA | TWIN | {EQUATIONS},
+                "invariant p_gamma", "change from the exact value at the start",
+            ),
+        ),
+    ),
+    Wrong(
+        "angular damping is 1e-4 /s in the run alone", "damping", damped(1e-4),
+        (
+            Sight(
+                TUMBLING, SE, {"truth orientation, limit", "truth omega, limit"}, near=None, beside=False
+            ),
+        ), 1e-4, of_size=damped,
+    ),
+)  # fmt: skip

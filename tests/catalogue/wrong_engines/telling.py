@@ -1,0 +1,147 @@
+"""States told wrong: the motion is right, and what is said of it is not."""
+
+import numpy as np
+from poinsot.adapters.mujoco_ import MuJoCo
+from poinsot.reference import quaternions
+
+from .entry import (
+    CHAIN,
+    ENERGY,
+    FREE,
+    MOMENTUM,
+    P_ALPHA,
+    P_GAMMA,
+    RATES,
+    RK,
+    SE,
+    TOP,
+    TUMBLING,
+    TWIN,
+    Lying,
+    Sight,
+    Wrong,
+    state,
+)  # fmt: skip
+
+
+class ScalarFirst(MuJoCo):
+    def state(self):
+        state = super().state()
+        return state._replace(quaternion=np.roll(state.quaternion, 1, axis=1))
+
+
+class Conjugated(MuJoCo):
+    def state(self):
+        state = super().state()
+        return state._replace(quaternion=quaternions.conjugate(state.quaternion))
+
+
+class WorldOmega(MuJoCo):
+    def state(self):
+        state = super().state()
+        return state._replace(omega=quaternions.rotated(state.quaternion, state.omega))
+
+
+class FrameNotCentre(MuJoCo):
+    def state(self):
+        return super().state()._replace(position=self._scratch.xpos[self._bodies])
+
+
+class StuckInPlace(MuJoCo):
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._start = super().state().position
+
+    def state(self):
+        return super().state()._replace(position=self._start)
+
+
+class JointsOfLastSample(MuJoCo):
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._old = super().state().joint_velocity
+
+    def step(self, n):
+        self._old = super().state().joint_velocity
+        super().step(n)
+
+    def state(self):
+        return super().state()._replace(joint_velocity=self._old)
+
+
+class Turned(MuJoCo):
+    def state(self):
+        return super().state()._replace(quaternion=np.tile([0, 0, 0.6, 0.8], (3, 1)))
+
+
+class NeverNormalised(Lying, MuJoCo):
+    """Its quaternions grow by a part in 10⁹ a step."""
+
+    def state(self):
+        found = super().state()
+        return found._replace(quaternion=found.quaternion * (1 + 1e-9 * self._steps))
+
+
+WRONG = (
+    Wrong(
+        "quaternion is scalar-first", "quaternion", ScalarFirst,
+        (
+            Sight(
+                FREE, RK, state("orientation") | MOMENTUM | TWIN,
+                "twin state", "from its twin .* in orientation",
+            ),
+            Sight(
+                TOP, SE, state("orientation") | P_ALPHA | TWIN,
+                "truth orientation", "distance from the exact motion",
+            ),
+        ),
+    ),
+    Wrong(
+        "quaternion is conjugated", "quaternion", Conjugated,
+        (
+            Sight(
+                FREE, RK, state("orientation") | MOMENTUM | TWIN,
+                "truth orientation", "distance from the exact motion",
+            ),
+        ),
+    ),
+    Wrong(
+        "quaternion is never normalised", "quaternion", NeverNormalised,
+        (Sight(TUMBLING, SE, {"invariant quaternion norm"}, near=None, beside=False),),
+    ),
+    Wrong(
+        "angular velocity is in world axes", "angular velocity", WorldOmega,
+        (
+            Sight(
+                TOP, RK, state("omega") | ENERGY | P_ALPHA | P_GAMMA | TWIN,
+                "twin state", "from its twin .* in omega",
+            ),
+        ),
+    ),
+    Wrong(
+        "position is the frame's, not the centre's", "position", FrameNotCentre,
+        (Sight(TOP, SE, RATES | ENERGY | P_ALPHA, "truth nutation", "from the exact rate"),),
+    ),
+    Wrong(
+        "position stays where it was", "position", StuckInPlace,
+        (Sight(FREE, SE, state("position") | TWIN, "twin state", "from its twin .* in position"),),
+    ),
+    Wrong(
+        "joint velocities are those of the last sample", "joints", JointsOfLastSample,
+        (
+            Sight(
+                CHAIN, SE, {"invariant joint speed residual"},
+                "invariant joint speed residual", "change from the exact value at the start",
+            ),
+        ),
+    ),
+    Wrong(
+        "attitudes are told of bodies that never turn", "quaternion", Turned,
+        (
+            Sight(
+                CHAIN, SE, {"invariant attitude"},
+                "invariant attitude", "change from the exact value at the start",
+            ),
+        ),
+    ),
+)  # fmt: skip
