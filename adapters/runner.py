@@ -53,7 +53,7 @@ def run(
     """
     folder.mkdir(parents=True, exist_ok=True)
     outcomes: dict[Request, Outcome] = {}
-    for request, result in _isolated(_logged, requests, (folder,), workers, time_limit):
+    for request, result in isolated(_logged, requests, (folder,), workers, time_limit):
         failed = isinstance(result, str)
         outcomes[request] = Outcome(request, error=result) if failed else Outcome(request, log=result.name)
         progress(outcomes[request])
@@ -67,7 +67,7 @@ def time(
 ) -> dict[Request, Timing | str]:
     """Time every request, one after the other, in one process on one core: a timing or what went wrong."""
     results: dict[Request, Timing | str] = {}
-    for request, result in _isolated(_timed, requests, (), 1, time_limit):
+    for request, result in isolated(_timed, requests, (), 1, time_limit):
         results[request] = result
         progress(request)
     return results
@@ -79,7 +79,7 @@ def file_name(request: Request) -> str:
     return re.sub(r"[^A-Za-z0-9.+-]+", "_", text.replace("[", "-").replace("]", "")) + ".mcap"
 
 
-def _isolated(
+def isolated(
     work: Callable[..., Any],
     requests: Iterable[Request],
     arguments: tuple[Any, ...],

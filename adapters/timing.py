@@ -19,7 +19,7 @@ SPREAD = 0.2
 #: Rounds of the loop that tells how fast the machine itself is just then.
 ROUNDS = 20_000
 #: Steps of the run that is not counted, which fills caches and tells how long the others will take.
-WARM_UP = 500
+WARM_UP = 50
 
 
 @dataclass(frozen=True)

@@ -58,10 +58,11 @@ def run(
     timing
         Whether to time the engines after they have been simulated.
     quick
-        Each scene at its own step alone: no ladders of steps, so no orders.
+        The first variant of each scene at its own step alone: no ladders of steps, so no orders.
     full
-        Ladders of steps of every variant, and every step timed. Scenes that are named are run so
-        anyway; else a ladder is run of the first variant of each scene.
+        Ladders of steps of every variant, every step timed, and the error over run time over three
+        decades of steps. Of scenes that are named every ladder is run anyway; else those of the first
+        variant of each scene.
     update_known
         Propose changes to the record of known deviations in known_deviations.proposed.toml beside the
         report. A new entry lacks its reason, which is for you to find; no bound is ever widened.
@@ -80,7 +81,7 @@ def run(
         raise InputError(f"--time-limit: got {time_limit}, expected a number of seconds above 0")
     if quick and full:
         raise InputError("--quick, --full: got both, expected one of them or none")
-    extent = Extent.QUICK if quick else Extent.FULL if full or scene else Extent.USUAL
+    extent = Extent.QUICK if quick else Extent.FULL if full else Extent.WHOLE if scene else Extent.USUAL
     laid = plan(select(list(scene)), engine or [], scheme or [], dt or [], extent)
     folder = output_folder(out)
     command = shlex.join(["poinsot", *_arguments()])

@@ -8,6 +8,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any, Protocol
 
+from . import precision
 from .adapters import log, runner
 from .adapters.environment import environment
 from .adapters.runner import Request
@@ -67,6 +68,11 @@ def run(
         for (scene, engine, scheme, dt), reason in timings.items()
         if isinstance(reason, str)
     ]
+    beyond: list[dict[str, Any]] = []
+    if laid.extent is Extent.FULL:
+        sound = {key: timing for key, timing in timings.items() if isinstance(timing, Timing)}
+        beyond, missing = precision.beyond(laid, sound, workers, time_limit, progress)
+        noted += missing
     facts = environment() | {
         "command": command,
         "whole": laid.whole,
@@ -74,7 +80,7 @@ def run(
         "workers": workers,
         "seconds": round(perf_counter() - clock, 1),
     }
-    return report(folder, records, seconds, facts, [*noted, *untimed], workers)
+    return report(folder, records, seconds, facts, [*noted, *untimed], workers, beyond)
 
 
 def report(
@@ -84,9 +90,11 @@ def report(
     facts: Mapping[str, Any],
     notes: Sequence[str],
     workers: int,
+    beyond: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, Any]:
     """Judge the logs of ``folder`` and write every page; needs no engine.
 
+    ``beyond`` are rows of error against run time that have no log, and are not judged.
     Raises ``CorruptLog`` for a log that is not what was written.
     """
     from .reports import pages  # jinja2 and plotly load only when there is something to show
@@ -98,7 +106,7 @@ def report(
     found = results.results(
         records,
         came.verdicts,
-        came.rows,
+        [*came.rows, *beyond],
         all_scenes(),
         facts,
         list(dict.fromkeys([*notes, *came.notes])),
@@ -129,6 +137,7 @@ def again(folder: Path, workers: int = 1) -> dict[str, Any]:
             found["environment"],
             found["notes"],
             workers,
+            [row for row in found["work_precision"] if not row.get("judged", True)],
         )
     records = [_record_of(path) for path in logs]
     return report(
@@ -172,7 +181,8 @@ def _timed(
     for record in records:
         first.setdefault(all_scenes()[record.scene].name, record.scene)
     sound = [record for record in records if record.log and record.scene in first.values()]
-    chosen = sound if laid.extent is Extent.FULL else [r for r in sound if _own_step(r, sound)]
+    every = laid.extent in (Extent.WHOLE, Extent.FULL)
+    chosen = sound if every else [record for record in sound if _own_step(record, sound)]
     requests = {laid.requests[record.key]: record.key for record in chosen}
     done = 0
 

@@ -21,11 +21,12 @@ REPEATS = 2
 
 
 class Extent(Enum):
-    """How much of every scene a run takes in: its own step in each variant, and ladders of steps."""
+    """How much of every scene a run takes in: its variants, and steps beside its own."""
 
-    QUICK = "no ladder: orders, limits and the error over the step are left out"
+    QUICK = "each scene at its own step: orders, limits and the error over the step are left out"
     USUAL = "ladders of the first variant of each scene; `--full` takes those of all variants"
-    FULL = "everything"
+    WHOLE = "every variant over its ladders"
+    FULL = "everything, and the error over run time over three decades of steps"
 
 
 @dataclass
@@ -37,7 +38,7 @@ class Plan:
     notes: list[str] = field(default_factory=list)
     #: Whether nothing is missing, scene, engine, scheme or step: every record must then find its check.
     whole: bool = False
-    extent: Extent = Extent.FULL
+    extent: Extent = Extent.WHOLE
 
 
 def plan(
@@ -45,7 +46,7 @@ def plan(
     engines: Sequence[str],
     schemes: Sequence[str],
     steps: Sequence[float],
-    extent: Extent = Extent.FULL,
+    extent: Extent = Extent.WHOLE,
 ) -> Plan:
     """Lay out scenes × engines × schemes × steps.
 
@@ -56,6 +57,9 @@ def plan(
     """
     found, laid = _engines(engines), Plan(extent=extent)
     first = {scene.name: scene.full_name for scene in reversed(scenes)}
+    if extent is Extent.QUICK and len(scenes) == len(all_scenes()):
+        scenes = [scene for scene in scenes if first[scene.name] == scene.full_name]
+        laid.notes.append("Of every scene the first variant alone was run; of one that is named, all are.")
     loaded = {spec: engine for spec, engine in found.items() if not isinstance(engine, str)}
     _check_schemes(schemes, loaded)
     for scene in scenes:
@@ -70,7 +74,7 @@ def plan(
     laid.whole = everything and not (schemes or steps)
     if steps:
         laid.notes.append("Only the steps asked for were run; order needs a ladder of at least five.")
-    elif extent is not Extent.FULL:
+    elif extent in (Extent.QUICK, Extent.USUAL):
         laid.notes.append(f"This is a {extent.name.lower()} run: {extent.value}.")
     return laid
 
@@ -129,7 +133,8 @@ def _add(
 
 def _wanted(scene: Scene, scheme: Scheme, extent: Extent, first: Mapping[str, str]) -> tuple[float, ...]:
     """Steps [s] of one scheme in one scene where none was asked for."""
-    has_ladder = extent is Extent.FULL or (extent is Extent.USUAL and first[scene.name] == scene.full_name)
+    every = extent in (Extent.WHOLE, Extent.FULL)
+    has_ladder = every or (extent is Extent.USUAL and first[scene.name] == scene.full_name)
     return (*scene.ladder(scheme.order, scheme.twin), scene.dt) if has_ladder else (scene.dt,)
 
 

@@ -184,6 +184,7 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
         "error_final": _finite(float(distances[-1])),
         "round_off": _finite(cell.round_off(observable)),
         "error_rms": _finite(float(np.sqrt(np.mean(distances**2)))),
+        "judged": True,
     }
 
 

@@ -3,7 +3,7 @@
 from collections import Counter
 
 import pytest
-from poinsot.scenarios.registry import select
+from poinsot.scenarios.registry import scenes, select
 
 from poinsot.plan import Extent, plan
 
@@ -16,12 +16,15 @@ def cells(extent, names=("free_symmetric_top",)):
 
 
 @pytest.mark.parametrize(
-    ("extent", "first", "second"), [(Extent.QUICK, 1, 1), (Extent.USUAL, 5, 1), (Extent.FULL, 5, 5)]
+    ("extent", "first", "second"),
+    [(Extent.QUICK, 1, 1), (Extent.USUAL, 5, 1), (Extent.WHOLE, 5, 5), (Extent.FULL, 5, 5)],
 )
 def test_how_many_steps_the_variants_of_a_scene_are_run_at(extent, first, second):
     counted, laid = cells(extent)
     assert counted == {LADDER: first, ALONE: second}
-    assert any(f"a {extent.name.lower()} run" in note for note in laid.notes) == (extent is not Extent.FULL)
+    assert any(f"a {extent.name.lower()} run" in note for note in laid.notes) == (
+        extent in (Extent.QUICK, Extent.USUAL)
+    )
 
 
 @pytest.mark.parametrize("extent", Extent)
@@ -30,3 +33,12 @@ def test_one_cell_of_each_scheme_is_run_twice_for_its_determinism(extent):
     twice = [request for request in laid.requests.values() if request.repeats == 2]
     assert Counter(request.scene for request in twice) == {LADDER: 1, ALONE: 1}
     assert {request.dt for request in twice} == {1e-3}
+
+
+def test_a_quick_run_of_everything_takes_the_first_variant_of_each_scene():
+    laid = plan(list(scenes().values()), ["pinocchio"], ["semi-implicit Euler"], [], Extent.QUICK)
+    names = [record.scene for record in laid.records]
+    assert len({name.partition("[")[0] for name in names}) == len(names)
+    assert LADDER in names
+    assert not laid.whole
+    assert any("the first variant alone" in note for note in laid.notes)
