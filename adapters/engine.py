@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 from ..reference.checked import Array
 from ..reference.errors import PoinsotError
@@ -108,4 +108,16 @@ class Engine(Protocol):
 
     def close(self) -> None:
         """Let go of what ``build`` made."""
+        ...
+
+
+@runtime_checkable
+class Reacting(Protocol):
+    """What an engine with the feature ``reaction`` offers beside the calls of ``Engine``."""
+
+    def reactions(self) -> Array:
+        """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them.
+
+        The motion goes on as if nobody had asked.
+        """
         ...

@@ -48,6 +48,9 @@ _UNITS = {
     "joint_velocity": "rad/s or m/s",
 }
 
+#: The same for what only some scenes have.
+_REACTION = "N and N m, parent on body through its joints, about the origin of the body's frame, body axes"
+
 
 @dataclass(frozen=True)
 class Logged:
@@ -107,10 +110,11 @@ def _provenance(scene: Scene, trajectory: Trajectory) -> Provenance:
     provenance = trajectory.provenance
     if provenance is None:
         raise InputError(f"trajectory of {scene.full_name}: got no provenance, expected to know its run")
-    got = (provenance.scene, trajectory.position.shape[1], trajectory.joint_position.shape[1])
-    expected = (scene.full_name, len(scene.bodies), len(scene.scalar_joints))
+    found = trajectory.position, trajectory.joint_position, trajectory.reaction
+    got = (provenance.scene, *(array.shape[1] for array in found))
+    expected = (scene.full_name, len(scene.bodies), len(scene.scalar_joints), len(scene.reactions))
     if got != expected:
-        words = "scene {}, {} bodies, {} scalar joints"
+        words = "scene {}, {} bodies, {} scalar joints, {} reactions"
         raise InputError(f"trajectory: got {words.format(*got)}; expected {words.format(*expected)}")
     return provenance
 
@@ -132,7 +136,7 @@ def _whole_or_not_at_all(path: Path) -> Iterator[IO[bytes]]:
 
 def _write_views(file: Container, scene: Scene, trajectory: Trajectory, times: log_rows.Times) -> None:
     shown = log_views.frames(trajectory.t, len(scene.bodies))
-    few = replace(trajectory, **{name: getattr(trajectory, name)[shown] for name in _UNITS})
+    few = replace(trajectory, **{name: getattr(trajectory, name)[shown] for name in (*_UNITS, "reaction")})
     file.messages(
         file.channel("/scene", "foxglove.SceneUpdate", descriptor_set(SceneUpdate), {}),
         [int(times[0])],
@@ -150,6 +154,8 @@ def _write_states(file: Container, scene: Scene, trajectory: Trajectory, times: 
         "bodies": json.dumps([body.name for body in scene.bodies]),
         "joints": json.dumps([joint.name for joint in scene.scalar_joints]),
     }
+    if scene.reactions:
+        names |= {"reactions": json.dumps(scene.reactions), "reaction": _REACTION}
     channel = file.channel("/state", STATE, descriptor_set(State), {**names, **_UNITS})
     file.rows(channel, times, log_rows.encode(trajectory, times, channel))
 
@@ -168,7 +174,8 @@ def _states(reader: McapReader, data: bytes) -> Trajectory:
     [channel] = [channel for channel in summary.channels.values() if channel.schema_id == schema]
     records = b"".join(_chunks(summary, channel, data))
     bodies, joints = (len(json.loads(channel.metadata[name])) for name in ("bodies", "joints"))
-    return log_rows.decode(records, bodies, joints, channel.id)
+    reactions = len(json.loads(channel.metadata.get("reactions", "[]")))
+    return log_rows.decode(records, bodies, joints, channel.id, reactions)
 
 
 def _chunks(summary: Summary, channel: Channel, data: bytes) -> Iterator[bytes]:

@@ -30,6 +30,8 @@ _HEAD = [
 ]
 _WIDTHS = {"position": 3, "quaternion": 4, "velocity": 3, "omega": 3}
 _JOINTS = ("joint_position", "joint_velocity")
+#: Force and moment.
+_REACTION = 6
 
 #: Beyond this many seconds, 292 years, nanoseconds leave 64 bits.
 LONGEST = 9.2e9
@@ -38,7 +40,8 @@ LONGEST = 9.2e9
 def encode(motion: Trajectory, times: Times, channel: int) -> Rows:
     """One message record for each sample (n,), ready to be put into chunks."""
     n, bodies = motion.position.shape[:2]
-    rows = np.repeat(_empty_row(bodies, motion.joint_position.shape[1], channel), n)
+    joints, reactions = motion.joint_position.shape[1], motion.reaction.shape[1]
+    rows = np.repeat(_empty_row(bodies, joints, channel, reactions), n)
     rows["sequence"] = np.arange(n)
     rows["log_time"] = rows["publish_time"] = times
     for name in _numbers(rows.dtype):
@@ -46,12 +49,12 @@ def encode(motion: Trajectory, times: Times, channel: int) -> Rows:
     return rows
 
 
-def decode(data: bytes, bodies: int, joints: int, channel: int) -> Trajectory:
+def decode(data: bytes, bodies: int, joints: int, channel: int, reactions: int = 0) -> Trajectory:
     """The trajectory in the message records of ``data``, its arrays its own.
 
     Raises ``ValueError`` if ``data`` is anything but the records that ``encode`` makes, in order.
     """
-    empty = _empty_row(bodies, joints, channel)
+    empty = _empty_row(bodies, joints, channel, reactions)
     if len(data) % empty.itemsize or not _as_written(rows := np.frombuffer(data, empty.dtype), empty):
         raise ValueError("its State messages are not laid out as Poinsot writes them")
     n = len(rows)
@@ -60,6 +63,8 @@ def decode(data: bytes, bodies: int, joints: int, channel: int) -> Trajectory:
     }
     for name in _JOINTS:
         arrays[name] = rows[name].copy() if joints else np.empty((n, 0))
+    if reactions:
+        arrays["reaction"] = rows["reaction"].reshape(n, reactions, _REACTION).copy()
     return Trajectory(rows["t"][:, 0].copy(), **arrays)
 
 
@@ -87,9 +92,9 @@ def _as_written(rows: Rows, empty: Rows) -> bool:
     return in_order and all(np.all(rows[name] == empty[name]) for name in fixed)
 
 
-def _empty_row(bodies: int, joints: int, channel: int) -> Rows:
+def _empty_row(bodies: int, joints: int, channel: int, reactions: int) -> Rows:
     sizes = {"t": 1, **{name: width * bodies for name, width in _WIDTHS.items()}}
-    sizes |= dict.fromkeys(_JOINTS, joints)
+    sizes |= {**dict.fromkeys(_JOINTS, joints), "reaction": _REACTION * reactions}
     tags = {name: _tag(name, size) for name, size in sizes.items() if size}
     fields: list[Any] = list(_HEAD)
     for name, tag in tags.items():
@@ -109,4 +114,4 @@ def _tag(name: str, size: int) -> npt.NDArray[np.uint8]:
 
 
 def _numbers(dtype: np.dtype[Any]) -> list[str]:
-    return [name for name in ("t", *_WIDTHS, *_JOINTS) if name in (dtype.names or ())]
+    return [name for name in ("t", *_WIDTHS, *_JOINTS, "reaction") if name in (dtype.names or ())]

@@ -20,6 +20,7 @@ _STATE = {
         (5, "omega", "double[]"),
         (6, "joint_position", "double[]"),
         (7, "joint_velocity", "double[]"),
+        (8, "reaction", "double[]"),
     )
 }
 _FOXGLOVE = {

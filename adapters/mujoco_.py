@@ -18,6 +18,8 @@ from .mujoco_contact import add_contacts, told
 from .mujoco_forces import Forces
 from .mujoco_mjcf import mjcf
 from .mujoco_parts import built
+from .mujoco_reactions import reactions
+from .mujoco_told import inertial_frame, world
 
 #: Where a joint's coordinates lie among MuJoCo's, whose quaternions are scalar-first.
 _PLACES = {"free": (0, 1, 2, 4, 5, 6, 3), "ball": (1, 2, 3, 0), "hinge": (0,), "slide": (0,)}
@@ -128,9 +130,9 @@ class MuJoCo:
 
     def readback(self) -> Setup:
         """How MuJoCo is set up, by its own account; nothing has to be probed."""
-        model, values = self._model, _world(self._model)
+        model, values = self._model, world(mujoco, self._model)
         for body, i in zip(self._centred.before.bodies, self._bodies, strict=True):
-            com, turn = _inertial_frame(model, i)
+            com, turn = inertial_frame(mujoco, model, i)
             values[f"body/{body.name}/mass"] = float(model.body_mass[i])
             values[f"body/{body.name}/center_of_mass"] = self._centred.center_of_mass(body, com)
             values[f"body/{body.name}/inertia"] = turn @ np.diag(model.body_inertia[i]) @ turn.T
@@ -144,15 +146,19 @@ class MuJoCo:
 
         Contacts take no part: theirs depend on the step.
         """
-        model, data = self._model, self._scratch
+        data = self._scratch
         q, v = self._centred.state(q, v)
         data.qpos[self._q], data.qvel[self._v] = q, v
-        # Under "discrete" qacc is the change of velocity over a whole step.
-        chosen, model.opt.integrator = model.opt.integrator, mujoco.mjtIntegrator.mjINT_EULER
-        with self._forced():
-            mujoco.mj_forward(model, data)
-        model.opt.integrator = chosen
+        self._forward()
         return self._centred.acceleration(q, v, data.qacc_smooth[self._v])
+
+    def reactions(self) -> Array:
+        """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
+        self._scratch.qpos[:], self._scratch.qvel[:] = self._data.qpos, self._data.qvel
+        self._forward()
+        names = [body.name for body in self._scene.bodies]
+        held = [int(self._bodies[names.index(name)]) for name in self._scene.reactions]
+        return reactions(mujoco, self._model, self._scratch, held)
 
     def model_text(self) -> tuple[str, str]:
         """The model as MJCF, with every digit."""
@@ -176,6 +182,15 @@ class MuJoCo:
             [i + k for kind, i in zip(kinds, first_v, strict=True) for k in range(WIDTHS[kind][1])], int
         )
         self._scalar_q, self._scalar_v = first_q[scalar], first_v[scalar]
+
+    def _forward(self) -> None:
+        """Make of the scratch copy's coordinates and velocities all that follows from them."""
+        # Under "discrete" qacc is the change of velocity over a whole step.
+        option, euler = self._model.opt, mujoco.mjtIntegrator.mjINT_EULER
+        chosen, option.integrator = option.integrator, euler
+        with self._forced():
+            mujoco.mj_forward(self._model, self._scratch)
+        option.integrator = chosen
 
     def _sound(self) -> None:
         data, dt = self._data, self._model.opt.timestep
@@ -273,27 +288,3 @@ def _keep_small_offsets(model: Any) -> None:
     """Undo MuJoCo's taking an inertial frame within 1e-6 of the body's for the body's."""
     aligned = (model.body_ipos == 0).all(axis=1) & (model.body_iquat == _NO_TURN).all(axis=1)
     model.body_sameframe[~aligned] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
-
-
-def _inertial_frame(model: Any, i: int) -> tuple[Array, Array]:
-    """Centre of mass and principal axes of body ``i`` in body axes, as MuJoCo's kinematics takes them."""
-    same = mujoco.mjtSameFrame(int(model.body_sameframe[i]))
-    turned = same not in (mujoco.mjtSameFrame.mjSAMEFRAME_BODY, mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
-    com = model.body_ipos[i] if same != mujoco.mjtSameFrame.mjSAMEFRAME_BODY else np.zeros(3)
-    x, y, z, w = model.body_iquat[i][[1, 2, 3, 0]] if turned else (0, 0, 0, 1)
-    return com.copy(), np.asarray(Rotation.from_quat((x, y, z, w)).as_matrix())
-
-
-def _world(model: Any) -> dict[str, Any]:
-    weightless = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
-    kind, first = model.jnt_type[model.dof_jntid], model.jnt_dofadr[model.dof_jntid]
-    moving = (kind == mujoco.mjtJoint.mjJNT_FREE) & (np.arange(model.nv) < first + 3)
-    turning = ~moving & (kind != mujoco.mjtJoint.mjJNT_HINGE) & (kind != mujoco.mjtJoint.mjJNT_SLIDE)
-    rate = model.dof_damping * model.dof_invweight0
-    return {
-        "gravity": np.zeros(3) if weightless else model.opt.gravity.copy(),
-        "dt": float(model.opt.timestep),
-        "velocity_limit": np.inf,
-        "linear_damping": float(rate[moving].max(initial=0.0)),
-        "angular_damping": float(rate[turning].max(initial=0.0)),
-    }

@@ -130,6 +130,13 @@ class Pinocchio:
         found = pin.aba(self._model, self._data, position, velocity, force)[self._v]
         return self._centred.acceleration(q, v, found)
 
+    def reactions(self) -> Array:
+        """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
+        model, data, q, v = self._model, self._data, self._position, self._velocity
+        pin.rnea(model, data, q, v, pin.aba(model, data, q, v, self._mechanism.force(q, v)))
+        last = {frame.name: frame.parentJoint for frame in self._frames}
+        return np.array([data.f[last[name]].vector for name in self._scene.reactions])
+
     def model_text(self) -> tuple[str, str]:
         """The model as JSON, every joint and body with every digit; a URDF could not hold ball joints."""
         return "model.json", model_json(self._model, self._frames, self._springs(), self._dt)

@@ -1,11 +1,7 @@
 """PyBullet: trees in reduced coordinates, free bodies in maximal ones too; contact only where asked for."""
 
 import importlib.metadata
-import math
-import tempfile
-from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,7 +18,9 @@ from . import pybullet_probes as probes
 from .c_output import caught
 from .engine import Scheme, Setup, State
 from .pybullet_forces import pushes
-from .pybullet_layout import Place, inertial_frame, layout, of_ball, of_base, of_inertia
+from .pybullet_layout import inertial_frame, layout, of_ball, of_base, of_inertia
+from .pybullet_loading import load, quieted
+from .pybullet_reactions import Sensors
 from .pybullet_settings import SETTINGS
 from .pybullet_urdf import trees, urdf
 
@@ -60,6 +58,7 @@ class PyBullet:
         self._scene, self._untouched = scene, probes.without(scene)
         self._bare = probes.without(scene, "gravity", "stiffness", "damping")
         self._copy: _World | None = None
+        self._sensors: Sensors | None = None
         q0, v0 = np.array(scene.q0), np.array(scene.v0)
         limits.refuse_frozen(scene, [self._response(i, q0) for i in range(len(scene.scalar_joints))])
         self._world = _World(self._client("run"), scene, self._maximal, dt)
@@ -100,6 +99,13 @@ class PyBullet:
         free = self._loaded(replace(self._untouched, forces=())).change
         return probes.limit(free, q, v) + (pushed - free(q, v, 1.0, 1))
 
+    def reactions(self) -> Array:
+        """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
+        if self._sensors is None:
+            copy = _World(self._client("sensors"), self._scene, self._maximal, self._world.dt)
+            self._sensors = Sensors(p, copy)
+        return self._sensors.read(self._world)
+
     def model_text(self) -> tuple[str, str]:
         """The model as URDF, with every digit; of several trees one document after the other."""
         return "model.urdf", "\n".join(urdf(self._scene, tree) for tree in trees(self._scene))
@@ -135,15 +141,15 @@ class _World:
         p.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=client)
         p.setGravity(*scene.gravity, physicsClientId=client)
         self._batch(1)
-        uids = {_load(client, scene, tree, maximal): tree for tree in trees(scene)}
-        links = dict(named for uid in uids for named in _quieted(client, uid))
-        self._at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
-        self._pushes = pushes(p, client, scene, self._at, dt)
-        self._pairs = contact.connect(p, client, scene, self._at.bodies) if scene.contacts else []
+        uids = {load(p, client, scene, tree, maximal): tree for tree in trees(scene)}
+        links = dict(named for uid in uids for named in quieted(p, client, uid))
+        self.at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
+        self._pushes = pushes(p, client, scene, self.at, dt)
+        self._pairs = contact.connect(p, client, scene, self.at.bodies) if scene.contacts else []
         self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
-        frames = [inertial_frame(p, client, *place) for place in self._at.bodies]
-        self._center, self._axes = (np.array(part) for part in zip(*frames, strict=True))
-        self._carried = np.vstack([self._axes, IDENTITY])
+        frames = [inertial_frame(p, client, *place) for place in self.at.bodies]
+        self.center, self.axes = (np.array(part) for part in zip(*frames, strict=True))
+        self._carried = np.vstack([self.axes, IDENTITY])
 
     def place(self, q: Array, v: Array) -> None:
         """Put everything at these coordinates, laid out as the scene's."""
@@ -158,15 +164,15 @@ class _World:
         self._put(q, v)
 
     def _put(self, q: Array, v: Array) -> None:
-        for body, uid, at_q, at_v in self._at.free:
-            center, axes = self._center[body], self._axes[body]
+        for body, uid, at_q, at_v in self.at.free:
+            center, axes = self.center[body], self.axes[body]
             position, turn, velocity, omega = of_base(q[at_q], v[at_v], center, axes)
             p.resetBasePositionAndOrientation(uid, position, turn, self.client)
             p.resetBaseVelocity(uid, velocity, omega, self.client)
-        for uid, link, carried, at_q, at_v in self._at.balls:
+        for uid, link, carried, at_q, at_v in self.at.balls:
             turn, omega = of_ball(q[at_q], v[at_v], self._carried[carried])
             p.resetJointStateMultiDof(uid, link, turn, omega, self.client)
-        for uid, link, i, j, _ in self._at.scalars:
+        for uid, link, i, j, _ in self.at.scalars:
             p.resetJointState(uid, link, q[i], v[j], self.client)
 
     def advance(self, n: int) -> None:
@@ -192,18 +198,18 @@ class _World:
         self.place(q, v)
         before = self._rates()
         if pushed is not None:
-            uid, link, *_ = self._at.scalars[pushed]
+            uid, link, *_ = self.at.scalars[pushed]
             p.setJointMotorControl2(uid, link, p.TORQUE_CONTROL, force=1.0, physicsClientId=self.client)
         self.advance(steps)
         change = (self._rates() - before) / (steps * dt)
-        for body, _, at_q, at_v in self._at.free:
-            change[at_v] = probes.at_origin(change[at_v], q[at_q][3:], v[at_v][3:], self._center[body])
+        for body, _, at_q, at_v in self.at.free:
+            change[at_v] = probes.at_origin(change[at_v], q[at_q][3:], v[at_v][3:], self.center[body])
         return change
 
     def state(self) -> State:
         """Where everything is now."""
         state = State(*self._bodies(), *self._joints())
-        limits.refuse_broken(state, self._at.turning(self._rates()), self.dt)
+        limits.refuse_broken(state, self.at.turning(self._rates()), self.dt)
         return state
 
     def told(self) -> dict[str, Any]:
@@ -213,7 +219,7 @@ class _World:
             "gravity": np.array([engine[f"gravityAcceleration{axis}"] for axis in "XYZ"]),
             "dt": engine["fixedTimeStep"] / max(1, engine["numSubSteps"]),
         }
-        bodies = zip(self.scene.bodies, self._at.bodies, self._center, self._axes, strict=True)
+        bodies = zip(self.scene.bodies, self.at.bodies, self.center, self.axes, strict=True)
         for body, place, center, axes in bodies:
             mass, _, moments, *_ = p.getDynamicsInfo(*place, self.client)
             values |= of_inertia(body.name, mass, moments, center, axes)
@@ -236,65 +242,35 @@ class _World:
 
     def _bodies(self) -> tuple[Array, Array, Array, Array]:
         """Positions, quaternions, velocities and ω of the bodies, shapes and frames as in ``State``."""
-        count = len(self._at.bodies)
+        count = len(self.at.bodies)
         position, quaternion, velocity, omega = (np.empty((count, width)) for width in (3, 4, 3, 3))
-        for body, uid, _, _ in self._at.free:
+        for body, uid, _, _ in self.at.free:
             position[body], quaternion[body] = p.getBasePositionAndOrientation(uid, self.client)
             velocity[body], omega[body] = p.getBaseVelocity(uid, self.client)
-        for uid, bodies in self._at.linked.items():
+        for uid, bodies in self.at.linked.items():
             # Unless asked for forward kinematics (the last 1), PyBullet tells where links once were. It
             # tells the frames of links (4 and 5) in single precision, those of their inertia in double.
-            states = p.getLinkStates(uid, [self._at.bodies[body][1] for body in bodies], 1, 1, self.client)
+            states = p.getLinkStates(uid, [self.at.bodies[body][1] for body in bodies], 1, 1, self.client)
             for body, (center, turn, *_, linear, angular) in zip(bodies, states, strict=True):
                 position[body], quaternion[body], velocity[body], omega[body] = center, turn, linear, angular
-        quaternion = product(quaternion, conjugate(self._axes))
+        quaternion = product(quaternion, conjugate(self.axes))
         return position, quaternion, velocity, rotated(conjugate(quaternion), omega)
 
     def _joints(self) -> tuple[Array, Array]:
         """Positions and velocities (j,) of the hinges and slides."""
-        found = np.empty((2, len(self._at.scalars)))
-        for uid, numbers in self._at.hinged.items():
-            states = p.getJointStates(uid, [self._at.scalars[i].link for i in numbers], self.client)
+        found = np.empty((2, len(self.at.scalars)))
+        for uid, numbers in self.at.hinged.items():
+            states = p.getJointStates(uid, [self.at.scalars[i].link for i in numbers], self.client)
             found[:, numbers] = np.array([state[:2] for state in states]).T
         return found[0], found[1]
 
     def _rates(self) -> Array:
         """Velocities (nv,) as the scene lays them out, but of free bodies' centres, and ω in world axes."""
         rates = np.empty(len(self.scene.v0))
-        for _, uid, _, at_v in self._at.free:
+        for _, uid, _, at_v in self.at.free:
             rates[at_v] = np.ravel(p.getBaseVelocity(uid, self.client))
-        for uid, link, carried, _, at_v in self._at.balls:
+        for uid, link, carried, _, at_v in self.at.balls:
             omega = np.array(p.getJointStateMultiDof(uid, link, self.client)[1])
             rates[at_v] = rotated(self._carried[carried], omega)
-        rates[[scalar.v for scalar in self._at.scalars]] = self._joints()[1]
+        rates[[scalar.v for scalar in self.at.scalars]] = self._joints()[1]
         return rates
-
-
-def _load(client: int, scene: Scene, tree: list[int], maximal: bool) -> int:
-    """Load one tree, its joints at zero and its base at the origin; PyBullet's number for it."""
-    flags = p.URDF_USE_INERTIA_FROM_FILE
-    with tempfile.TemporaryDirectory() as folder, caught() as said:
-        path = Path(folder) / "model.urdf"  # never the same folder: PyBullet remembers files by name
-        path.write_text(urdf(scene, tree))
-        try:
-            uid = p.loadURDF(str(path), useMaximalCoordinates=maximal, flags=flags, physicsClientId=client)
-        except p.error:
-            uid = -1
-    limits.refuse_said(scene, uid, "".join(said))
-    return int(uid)
-
-
-def _quieted(client: int, uid: int) -> Iterator[tuple[str, Place]]:
-    """Take from a tree what PyBullet adds by itself; the places of its joints by name."""
-    p.changeDynamics(
-        uid, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,
-        activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=client,
-    )  # fmt: skip
-    still = {"targetPosition": IDENTITY, "physicsClientId": client}
-    for link in range(p.getNumJoints(uid, client)):
-        _, name, kind, *_ = p.getJointInfo(uid, link, client)
-        if kind == p.JOINT_SPHERICAL:
-            p.setJointMotorControlMultiDof(uid, link, p.POSITION_CONTROL, force=[0, 0, 0], **still)
-        elif kind != p.JOINT_FIXED:
-            p.setJointMotorControl2(uid, link, p.VELOCITY_CONTROL, force=0, physicsClientId=client)
-        yield name.decode(), (uid, link)

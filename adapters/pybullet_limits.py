@@ -15,7 +15,7 @@ from .pybullet_urdf import is_free, principal_axes, trees
 
 #: What maximal coordinates lack, each with the reason.
 LACKING = dict.fromkeys(
-    ("ball", "hinge", "slide", "weld", "tree", "spring", "damper"),
+    ("ball", "hinge", "slide", "weld", "tree", "spring", "damper", "reaction"),
     "in maximal coordinates PyBullet lets no one set or read a joint, so that only free bodies can be run",
 ) | {"acceleration": "the limit of small steps, 11 ms a state and good to 1e-10 at the worst"}
 #: What PyBullet takes for zero: a mass, a moment, a joint's inertia, a product of three moments.

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ..reference.checked import Array
 from ..reference.errors import InputError
 from ..scenarios.equations import states
 from ..scenarios.scene import FEATURES, Scene
 from ..scenarios.trajectory import Provenance, Trajectory
-from .engine import Engine, EngineError, Scheme, State
+from .engine import Engine, EngineError, Reacting, Scheme, State
 from .stable_step import stable_step
 
 
@@ -83,6 +84,7 @@ def digest(motion: Trajectory) -> str:
         hasher.update(np.ascontiguousarray(array).tobytes())
     hasher.update(np.ascontiguousarray(motion.joint_position).tobytes())
     hasher.update(np.ascontiguousarray(motion.joint_velocity).tobytes())
+    hasher.update(np.ascontiguousarray(motion.reaction).tobytes())
     return hasher.hexdigest()
 
 
@@ -96,18 +98,32 @@ def _accelerations(machine: Engine, scene: Scene, scheme: Scheme) -> tuple[tuple
 def _record(machine: Engine, scene: Scene, dt: float) -> Trajectory:
     stride = scene.steps_per_sample(dt)
     columns = State(*(np.empty((scene.samples + 1, *np.shape(part))) for part in machine.state()))
+    reaction = np.empty((scene.samples + 1, len(scene.reactions), 6))
     for sample in range(scene.samples + 1):
         if sample:
             machine.step(stride)
         # Assigned, so copied: an engine may hand out views of arrays that its next step overwrites.
         for column, part in zip(columns, machine.state(), strict=True):
             column[sample] = part
+        if scene.reactions:
+            reaction[sample] = _reactions(machine, scene)
     t = np.asarray(np.arange(scene.samples + 1) * stride * dt)
-    motion = Trajectory(t, **columns._asdict())
+    motion = Trajectory(t, **columns._asdict(), reaction=reaction)
     broken = motion.first_not_finite()
     if broken is not None:
         raise EngineError(f"the state is not finite at t = {broken:g} s")
     return motion
+
+
+def _reactions(machine: Engine, scene: Scene) -> Array:
+    if not isinstance(machine, Reacting):
+        raise EngineError(f"{machine.name} names the feature 'reaction' but has no reactions() to ask for it")
+    found = np.asarray(machine.reactions())
+    if found.shape != (len(scene.reactions), 6):
+        raise EngineError(
+            f"{machine.name} reactions(): got shape {found.shape}, expected ({len(scene.reactions)}, 6)"
+        )
+    return found
 
 
 def _plain(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -58,10 +58,20 @@ def bearing_forces(
     F1 + F2 is `axle_force`; −z1 F1y − z2 F2y and z1 F1x + z2 F2x are the torque of `bearing_torque`.
     Raises InputError as those two, or if the bearings are at one place.
     """
-    planes = _planes("bearings", bearings)
     force = axle_force(mass, centre, omega, alpha)
-    torque = bearing_torque(inertia, omega, alpha)
-    return _shared(planes, force[:2], np.array([torque[1], -torque[0]]))
+    return shared(bearings, force, bearing_torque(inertia, omega, alpha))
+
+
+def shared(bearings: npt.ArrayLike, force: npt.ArrayLike, torque: npt.ArrayLike) -> Array:
+    """Transverse forces (…, 2, 2) [N] of bearings at z (2,) [m] that make this force and torque together.
+
+    ``force`` (…, 3) [N] and ``torque`` (…, 3) [N m] about the origin, on the body; rows as in
+    `bearing_forces`. Raises InputError if the bearings are at one place or the shapes differ.
+    """
+    planes, total = _planes("bearings", bearings), finite("force", force, np.shape(force))
+    turn = finite("torque", torque, total.shape)
+    moment = np.stack([turn[..., 1], -turn[..., 0]], axis=-1)
+    return _shared(planes, total[..., :2], moment)
 
 
 def correction(inertia: npt.ArrayLike, mass: float, centre: npt.ArrayLike, planes: npt.ArrayLike) -> Array:
@@ -84,4 +94,5 @@ def _planes(name: str, value: npt.ArrayLike) -> Array:
 def _shared(planes: Array, total: Array, moment: Array) -> Array:
     # Two rows u1, u2 with u1 + u2 = total and z1 u1 + z2 u2 = moment.
     first, second = planes
-    return np.array([second * total - moment, moment - first * total]) / float(second - first)
+    rows = np.stack([second * total - moment, moment - first * total], axis=-2)
+    return np.asarray(rows / float(second - first))

@@ -132,19 +132,21 @@ class Cell:
 
 
 def _whole(trajectory: Trajectory, scene: Scene) -> None:
-    got = (trajectory.position.shape[1], trajectory.joint_position.shape[1])
-    if got != (len(scene.bodies), len(scene.scalar_joints)):
+    found = trajectory.position, trajectory.joint_position, trajectory.reaction
+    got = tuple(array.shape[1] for array in found)
+    expected = (len(scene.bodies), len(scene.scalar_joints), len(scene.reactions))
+    if got != expected:
+        words = "{} bodies, {} hinges and slides and {} reactions"
         raise InputError(
-            f"trajectory of {scene.full_name}: got {got[0]} bodies and {got[1]} hinges and slides, "
-            f"expected {len(scene.bodies)} and {len(scene.scalar_joints)}"
+            f"trajectory of {scene.full_name}: got {words.format(*got)}, expected {words.format(*expected)}"
         )
-    t, expected = trajectory.t, scene.sample_times()
+    t, times = trajectory.t, scene.sample_times()
     # Times are whole steps, whose product with dt rounds by far less than this part of a sample.
-    if t.shape != expected.shape or not np.all(np.abs(t - expected) <= 1e-6 * expected[1]):
+    if t.shape != times.shape or not np.all(np.abs(t - times) <= 1e-6 * times[1]):
         last = f" up to {t[-1]:g} s" if len(t) else ""
         raise InputError(
-            f"trajectory of {scene.full_name}: got {len(t)} samples{last}, expected {len(expected)}, "
-            f"evenly up to {expected[-1]:g} s"
+            f"trajectory of {scene.full_name}: got {len(t)} samples{last}, expected {len(times)}, "
+            f"evenly up to {times[-1]:g} s"
         )
 
 

@@ -34,6 +34,7 @@ FEATURES: dict[str, str] = {
     "rim": "contact on the rim of a disc",
     "force": "forces that depend on where bodies are or how fast",
     "burning": "masses that fall while a scene runs",
+    "reaction": "reactions of joints",
 }
 
 #: What no scene gets unless a later feature names it, in words for the report.
@@ -72,6 +73,7 @@ class Scene:
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
     ``soft`` says of engines, by name, how far their contacts give way: granted beside round-off.
     ``forces`` act at the centres of mass, beside gravity and what joints do; ``burning`` bodies lose mass.
+    ``reactions`` names the bodies whose joints' reactions are measured, as ``Trajectory.reaction`` has them.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
@@ -105,6 +107,7 @@ class Scene:
     soft: Mapping[str, Softness] = field(default_factory=dict)
     forces: tuple[Force, ...] = ()
     burning: tuple[Burning, ...] = ()
+    reactions: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         try:
@@ -142,6 +145,7 @@ class Scene:
             "rim": any(isinstance(contact.shape, Rim) for contact in self.contacts),
             "force": bool(self.forces),
             "burning": bool(self.burning),
+            "reaction": bool(self.reactions),
         }
         return frozenset(found | {name for name, present in optional.items() if present})
 
@@ -202,6 +206,8 @@ class Scene:
         skipped = judged | {"pictures"}
         plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
         plain["observables"] = [observable.name for observable in self.observables]
+        if not self.reactions:  # unknown to the logs of before, which still say what their scene was
+            del plain["reactions"]
         return json.dumps(plain, default=lambda part: part.__dict__, sort_keys=True)
 
     def _check(self) -> None:
@@ -228,6 +234,7 @@ class Scene:
                     f"body {body.name!r} parent: got {body.parent!r}, expected a body listed before it"
                 )
         self._check_contacts()
+        self._check_reactions()
         for force in self.forces:
             force.acting(self.bodies)  # raises for a body that is not there
         for burning in self.burning:
@@ -258,6 +265,19 @@ class Scene:
         pairs = [contact.name for contact in self.contacts]
         if len(set(pairs)) != len(pairs):
             raise InputError(f"contacts: got {pairs}, expected each pair once")
+
+    def _check_reactions(self) -> None:
+        held = [body.name for body in self.bodies if body.joints and body.joints[0].kind != "free"]
+        wrong = [name for name in self.reactions if name not in held]
+        if wrong or len(set(self.reactions)) != len(self.reactions):
+            raise InputError(
+                f"reactions: got {list(self.reactions)}, expected each once, of bodies that a ball, hinge or "
+                f"slide holds: {', '.join(held) or 'there are none'}"
+            )
+        if self.reactions and (self.contacts or self.forces or self.burning):
+            raise InputError(
+                "reactions: got some beside contacts, forces or burning bodies; expected none of those"
+            )
 
 
 def every_scheme(rows: Mapping[str, tuple[float, ...]], like: str) -> dict[str, tuple[float, ...]]:

@@ -49,6 +49,11 @@ class Trajectory:
     [m/s]; ``omega`` (n, b, 3), **body axes** [rad/s]; ``joint_position`` and ``joint_velocity``
     (n, j), the hinges [rad, rad/s] and slides [m, m/s] in the scene's order.
 
+    ``reaction`` (n, k, 6) of the k bodies that the scene names in ``reactions``, none unless it does:
+    force [N] and moment [N m] that the parent exerts on the body through its joints, in the **body's
+    axes**, the moment about the origin of the body's frame, where those joints are. It is all that passes
+    through them, springs and dampers too, in the state of that very sample.
+
     Raises ``InputError`` if a shape does not fit.
     """
 
@@ -60,10 +65,13 @@ class Trajectory:
     joint_position: Array
     joint_velocity: Array
     provenance: Provenance | None = None
+    reaction: Array = field(default_factory=lambda: np.empty((0, 0, 6)))
 
     def __post_init__(self) -> None:
         n, b = self.position.shape[:2]
         j = self.joint_position.shape[-1]
+        if self.reaction.shape[1:] == (0, 6):  # none, of however many samples
+            object.__setattr__(self, "reaction", np.empty((n, 0, 6)))
         expected = {
             "t": (n,),
             "position": (n, b, 3),
@@ -72,6 +80,7 @@ class Trajectory:
             "omega": (n, b, 3),
             "joint_position": (n, j),
             "joint_velocity": (n, j),
+            "reaction": (n, *self.reaction.shape[1:2], 6),
         }
         for name, shape in expected.items():
             got = getattr(self, name).shape
@@ -88,6 +97,7 @@ class Trajectory:
             self.omega,
             self.joint_position,
             self.joint_velocity,
+            self.reaction,
         )
         fine = np.logical_and.reduce([np.isfinite(a.reshape(n, -1)).all(axis=1) for a in arrays])
         return None if fine.all() else float(self.t[int(np.argmin(fine))])

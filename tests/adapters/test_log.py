@@ -30,6 +30,27 @@ def test_every_array_comes_back_bit_for_bit(tmp_path, make_cell, bodies, hinges,
         assert array.flags.aligned
 
 
+def with_reactions(scene, motion):
+    """The same cell, the reactions of its last and first body measured."""
+    told = np.random.default_rng(3).normal(size=(len(motion.t), 2, 6))
+    told.flat[:4] = (0.0, -0.0, np.nan, 5e-324)
+    return replace(scene, reactions=(scene.bodies[-1].name, scene.bodies[0].name)), replace(
+        motion, reaction=told
+    )
+
+
+def test_reactions_come_back_bit_for_bit_where_there_are_some(tmp_path, make_cell):
+    bare, scene = make_cell(3, 2, 700), with_reactions(*make_cell(3, 2, 700))
+    for name, cell in {"bare": bare, "told": scene}.items():
+        log.write(tmp_path / name, *cell, {})
+    told, none = (log.read(tmp_path / name).trajectory for name in ("told", "bare"))
+    assert told.reaction.tobytes() == scene[1].reaction.tobytes()
+    assert told.position.tobytes() == none.position.tobytes()
+    assert none.reaction.shape == (700, 0, 6)
+    assert "reactions" not in json.loads(bare[0].as_json())
+    assert json.loads(scene[0].as_json())["reactions"] == ["body 2", "body 0"]
+
+
 def test_scene_and_models_come_back(tmp_path, make_cell):
     scene, motion = make_cell()
     models = {"model.xml": '<mujoco model="größe"/>\r\n', "arm.urdf": "", "note": "line\n"}
@@ -98,6 +119,10 @@ def _of_other_bodies(scene, motion):
     return replace(scene, bodies=scene.bodies[:1], q0=(0.0,), v0=(0.0,)), motion
 
 
+def _unmeasured(scene, motion):
+    return with_reactions(scene, motion)[0], motion
+
+
 def _time_standing_still(scene, motion):
     return scene, replace(motion, t=np.zeros_like(motion.t))
 
@@ -120,6 +145,7 @@ def _no_samples(scene, motion):
         (_without_provenance, "no provenance"),
         (_of_another_scene, r"expected scene chain\[other\]"),
         (_of_other_bodies, "1 bodies, 1 scalar joints"),
+        (_unmeasured, "0 reactions; expected .* 2 reactions"),
         (_time_standing_still, "increasing"),
         (_time_not_a_number, "increasing"),
         (_an_array_in_the_setup, "provenance setup: got array"),

@@ -55,6 +55,19 @@ def test_messages_are_the_bytes_protobuf_itself_writes(tmp_path, make_cell, bodi
         assert message.sequence == place
 
 
+def test_reactions_are_a_field_of_the_message_only_where_there_are_some(tmp_path, make_cell):
+    scene, motion = make_cell(2, 1, 15)
+    told = np.random.default_rng(3).normal(size=(15, 1, 6))
+    log.write(tmp_path / "a.mcap", replace(scene, reactions=("body 1",)), replace(motion, reaction=told), {})
+    for place, (schema, channel, message) in enumerate(_messages(tmp_path / "a.mcap", "/state")):
+        assert _decoder(schema).FromString(message.data).reaction == told[place].ravel().tolist()
+        assert channel.metadata["reactions"] == '["body 1"]'
+    log.write(tmp_path / "b.mcap", scene, motion, {})
+    [(schema, channel, message), *_] = _messages(tmp_path / "b.mcap", "/state")
+    assert len(_decoder(schema).FromString(message.data).reaction) == 0
+    assert not {"reactions", "reaction"} & channel.metadata.keys()
+
+
 def test_a_log_describes_its_own_messages(logged):
     _, motion, path = logged
     found = _messages(path, "/state")

@@ -628,7 +628,7 @@ def coordinates(scene, state, world):
     """The scene's coordinates and velocities, from the joints that PyBullet tells of."""
     q, v = np.empty(len(scene.q0)), np.empty(len(scene.v0))
     scalars = iter(zip(state.joint_position, state.joint_velocity, strict=True))
-    balls = iter(world._at.balls)
+    balls = iter(world.at.balls)
     for (body, joint, at_q, at_v), index in zip(scene.slices(), bodies_of(scene), strict=True):
         if joint.kind in ("hinge", "slide"):
             q[at_q], v[at_v] = next(scalars)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from poinsot.reference.errors import InputError
 from poinsot.scenarios import heavy_top, observables, registry
 from poinsot.scenarios.body import Body, Joint, diagonal
+from poinsot.scenarios.forces import Constant
 from poinsot.scenarios.registry import scenes, select
 from poinsot.scenarios.scene import Scene
 
@@ -52,12 +53,26 @@ def scene(**changes):
         ({"q0": (0.1, 0.0, 0.0, 0.6, 0.8 + 1e-8, 0.2)}, "expected a unit quaternion"),
         ({"errors": {"RKMK4": (1.0,)}}, "errors of 'RKMK4': got 1 constants, expected one for each of 2"),
         ({"bodies": ()}, "bodies: got the names []"),
+        (
+            {"reactions": ("foot",)},
+            "reactions: got ['foot'], expected each once, of bodies that a ball, hinge",
+        ),
+        ({"reactions": ("arm", "arm")}, "slide holds: arm, hand, finger"),
     ],
 )
 def test_what_cannot_be_is_refused_by_scene_and_field(changes, says):
     with pytest.raises(InputError, match=re.escape(says)) as caught:
         scene(variant="far", **changes)
     assert str(caught.value).startswith("scene reach[far]: ")
+
+
+def test_reactions_are_of_bodies_that_joints_hold_and_stand_beside_no_other_forces():
+    thrown = Body("a", 1.0, UNIT, (Joint("free", "free"),))
+    at_rest = {"q0": (0.0,) * 6 + (1.0,), "v0": (0.0,) * 6}
+    with pytest.raises(InputError, match="slide holds: there are none"):
+        scene(bodies=(thrown,), reactions=("a",), **at_rest)
+    with pytest.raises(InputError, match="reactions: got some beside contacts, forces or burning bodies"):
+        scene(reactions=("arm",), forces=(Constant("hand", (0.0, 0.0, 1.0)),))
 
 
 def test_bodies_must_differ_in_name():
@@ -97,6 +112,7 @@ def test_coordinates_lie_body_by_body():
         ),
         ({"bodies": (Body("a", 1.0, UNIT, (Joint("h", "hinge", damping=1.0),)),), "q0": (0.0,), "v0": (0.0,)},
          {"hinge", "damper"}),
+        ({"reactions": ("arm",)}, {"hinge", "ball", "slide", "tree", "spring", "damper", "reaction"}),
     ],
 )  # fmt: skip
 def test_features_are_what_the_bodies_have(changes, features):

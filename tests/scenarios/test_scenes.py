@@ -122,7 +122,7 @@ def test_whatever_an_engine_hands_out_is_looked_at(scene):
     # Each number off by itself, by a part in a million of the largest of its kind, shows in some observable.
     rng = np.random.default_rng(1)
     truth = scene.truth(scene, scene.sample_times())
-    for name in CHANNELS:
+    for name in (*CHANNELS, "reaction"):
         array = getattr(truth, name)
         size = 1e-6 * (np.abs(array).max(initial=0.0) or 1.0)
         for body in range(array.shape[1]):
