@@ -15,7 +15,7 @@ from pebble import ProcessExpired, ProcessPool
 
 from ..reference.errors import PoinsotError
 from ..scenarios.registry import scenes
-from . import log, registry
+from . import log, memory, registry
 from .simulate import simulate
 from .timing import Timing, timed
 
@@ -33,11 +33,12 @@ class Request:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a request: the name of its log, or why there is none."""
+    """What became of a request: the name of its log, or why there is none; the memory [bytes] it took."""
 
     request: Request
     log: str | None = None
     error: str = ""
+    memory: int | None = None
 
 
 def run(
@@ -55,7 +56,9 @@ def run(
     outcomes: dict[Request, Outcome] = {}
     for request, result in isolated(_logged, requests, (folder,), workers, time_limit):
         failed = isinstance(result, str)
-        outcomes[request] = Outcome(request, error=result) if failed else Outcome(request, log=result.name)
+        outcomes[request] = (
+            Outcome(request, error=result) if failed else Outcome(request, result[0], "", result[1])
+        )
         progress(outcomes[request])
     return [outcomes[request] for request in requests]
 
@@ -114,13 +117,14 @@ def _result(future: Future[Any], time_limit: float) -> Any:
         return f"{type(error).__name__}: {error}"
 
 
-def _logged(request: Request, folder: Path) -> Path:
+def _logged(request: Request, folder: Path) -> tuple[str, int | None]:
+    memory.forget()
     engine = registry.load(request.engine)
     scene, scheme = scenes()[request.scene], registry.scheme_of(engine, request.scheme)
     trajectory, model = simulate(scene, engine, scheme, request.dt, request.repeats)
     path = folder / file_name(request)
     log.write(path, scene, trajectory, model)
-    return path
+    return path.name, memory.peak()
 
 
 def _timed(request: Request) -> Timing:

@@ -158,16 +158,19 @@ def _simulated(
     # The longest first: no worker is left with one long cell while the other has nothing to do.
     longest_first = sorted(laid.requests.values(), key=lambda request: request.dt)
     outcomes = {o.request: o for o in runner.run(longest_first, folder / LOGS, workers, time_limit, count)}
-    return [_with_outcome(record, laid, outcomes) for record in laid.records]
+    return [_with_outcome(record, laid, outcomes, folder) for record in laid.records]
 
 
-def _with_outcome(record: CellRecord, laid: Plan, outcomes: Mapping[Request, runner.Outcome]) -> CellRecord:
+def _with_outcome(
+    record: CellRecord, laid: Plan, outcomes: Mapping[Request, runner.Outcome], folder: Path
+) -> CellRecord:
     if record.key not in laid.requests:
         return record
     outcome = outcomes[laid.requests[record.key]]
     if outcome.log is None:
         return replace(record, status=Status.ERROR, message=outcome.error)
-    return replace(record, log=f"{LOGS}/{outcome.log}")
+    size = (folder / LOGS / outcome.log).stat().st_size
+    return replace(record, log=f"{LOGS}/{outcome.log}", log_bytes=size, memory=outcome.memory)
 
 
 def _timed(
@@ -229,5 +232,5 @@ def _record_of(path: Path) -> CellRecord:
         raise InputError(f"{path.name}: got a log without provenance, expected one that `poinsot run` wrote")
     return CellRecord(
         p.scene, p.engine, p.engine_version, p.scheme, p.twin, p.order, p.dt, p.steps,
-        log=f"{LOGS}/{path.name}", settings=p.settings,
+        log=f"{LOGS}/{path.name}", settings=p.settings, log_bytes=path.stat().st_size,
     )  # fmt: skip

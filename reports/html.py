@@ -38,6 +38,7 @@ def render(results: Record, pictures: Mapping[str, Sequence[Figure]], out: Path)
             pictures=pictures,
             costs=_costs(digest),
             cheapest=_cheapest(digest),
+            weights=_weights(digest),
             settings=_settings(digest),
             plotly=_library(),
         )
@@ -104,6 +105,22 @@ def _cheapest(digest: Digest) -> dict[str, list[Record]]:
         if not mine or mine[0]["observable"] == row["observable"]:
             mine.append(row)
     return {scene: rows for scene, rows in found.items() if any(row["engine"] for row in rows)}
+
+
+def _weights(digest: Digest) -> dict[str, str]:
+    """Of each scene in words how much memory its cells took at the most, and how large their logs are."""
+    found: dict[str, str] = {}
+    for scene in digest.scenes:
+        cells = [cell for cell in digest.cells if cell["scene"] == scene]
+        sizes = [cell["log_bytes"] for cell in cells if cell.get("log_bytes")]
+        memory = [cell["memory_bytes"] for cell in cells if cell.get("memory_bytes")]
+        said = [f"at most {max(memory) / 1e6:.0f} MB held by the process of a cell"] if memory else []
+        if sizes:
+            least, most, total = min(sizes) / 1e3, max(sizes) / 1e3, sum(sizes) / 1e6
+            said += [f"logs of {least:.0f} to {most:.0f} kB, {total:.2f} MB in all"]
+        if said:
+            found[scene] = "; ".join(said)
+    return found
 
 
 def _settings(digest: Digest) -> list[tuple[str, str, str]]:

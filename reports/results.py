@@ -41,7 +41,10 @@ class ResultsError(PoinsotError):
 
 @dataclass(frozen=True)
 class CellRecord:
-    """One cell of a run, whether it left a log or not: ``status`` is set only where it did not."""
+    """One cell of a run, whether it left a log or not: ``status`` is set only where it did not.
+
+    ``log_bytes`` is the size of its log, ``memory`` [bytes] the most that its process held at once.
+    """
 
     scene: str
     engine: str
@@ -55,6 +58,8 @@ class CellRecord:
     status: Status | None = None
     message: str = ""
     settings: Mapping[str, str] = field(default_factory=dict)
+    log_bytes: int | None = None
+    memory: int | None = None
 
     @property
     def key(self) -> Key:
@@ -142,6 +147,8 @@ def records_of(found: Mapping[str, Any]) -> list[CellRecord]:
             status=None if cell["log"] else Status(cell["status"]),
             message=cell["message"],
             settings=cell["settings"],
+            log_bytes=cell.get("log_bytes"),
+            memory=cell.get("memory_bytes"),
         )
         for cell in found["cells"]
     ]
@@ -203,6 +210,8 @@ def _cell(record: CellRecord, verdicts: Sequence[Verdict]) -> dict[str, Any]:
         "log": record.log,
         "message": record.message,
         "settings": dict(record.settings),
+        "log_bytes": record.log_bytes,
+        "memory_bytes": record.memory,
         "verdicts": [_verdict(verdict) for verdict in verdicts],
     }
 

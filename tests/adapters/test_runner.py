@@ -82,6 +82,13 @@ def test_the_sound_cell_is_logged(outcomes):
     assert log.read(folder / "logs" / found["Still"].log).trajectory.provenance.scene == SCENE
 
 
+def test_the_memory_of_a_cell_is_known(outcomes):
+    _, found = outcomes
+    # Python and numpy alone take 30 MB; a cell that takes 2 GB would be found out.
+    assert 3e7 < found["Still"].memory < 2e9
+    assert found["Dies"].memory is None
+
+
 @pytest.mark.parametrize(
     ("name", "says"),
     [

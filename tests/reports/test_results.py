@@ -53,6 +53,21 @@ def test_the_names_are_those_that_scripts_rely_on(found):
     } <= set(row)  # fmt: skip
 
 
+def test_memory_and_size_of_the_log_survive_a_second_report(found):
+    weighed = {**found, "cells": [{**cell, "log_bytes": 5, "memory_bytes": 7} for cell in found["cells"]]}
+    again = results.records_of(weighed)
+    assert [(record.log_bytes, record.memory) for record in again] == [(5, 7)] * 3
+    assert results._cell(again[0], [])["log_bytes"] == 5
+    assert results._cell(again[0], [])["memory_bytes"] == 7
+
+
+def test_results_of_before_they_were_kept_are_read(found):
+    old = {**found, "cells": [dict(cell) for cell in found["cells"]]}
+    for cell in old["cells"]:
+        del cell["log_bytes"], cell["memory_bytes"]
+    assert {record.memory for record in results.records_of(old)} == {None}
+
+
 def test_every_cell_is_there_with_its_own_verdicts(found):
     ran, broke, absent = found["cells"]
     assert (ran["status"], ran["log"], len(ran["verdicts"])) == ("pass", "logs/a.mcap", 1)
