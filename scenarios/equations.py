@@ -10,8 +10,8 @@ from .forces import forces_on
 from .scene import Scene
 from .trajectory import Trajectory
 
-#: Random states beside the scene's own.
-STATES = 100
+#: Random states beside the scene's own, and the seed that they are drawn by.
+STATES, SEED = 100, 4
 
 
 def links(scene: Scene) -> "list[equations_of_motion.Link]":
@@ -80,7 +80,7 @@ def states(scene: Scene) -> tuple[Array, Array]:
     The others are random, the same at every call: any attitude and angle, displacements up to 1 m from
     the scene's own (a tenth of what it is there where forces depend on it), speeds up to its largest.
     """
-    chance = np.random.default_rng(4)
+    chance = np.random.default_rng(SEED)
     q = np.tile(np.array(scene.q0), (STATES + 1, 1))
     v = np.tile(np.array(scene.v0), (STATES + 1, 1))
     fastest = max(1.0, float(np.abs(v[0]).max(initial=0.0)))
