@@ -8,7 +8,7 @@ pytest.importorskip("mujoco")
 pytest.importorskip("pinocchio")
 pytest.importorskip("pybullet")
 
-from poinsot.adapters import pybullet_, registry
+from poinsot.adapters import pybullet_, pybullet_loading, registry
 from poinsot.adapters.mujoco_ import MuJoCo, mujoco
 from poinsot.adapters.pinocchio_ import Pinocchio, pin
 from poinsot.adapters.pybullet_ import PyBullet
@@ -178,10 +178,10 @@ class WithShapes(PyBullet):
     """Gives every link a shape, as URDFs mostly do."""
 
     def build(self, scene, scheme, dt):
-        plain = pybullet_.urdf
+        plain = pybullet_loading.urdf
         shape = '  <collision><geometry><sphere radius="0.01"/></geometry></collision>\n</link>'
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(pybullet_, "urdf", lambda *of: plain(*of).replace("</link>", shape))
+            patch.setattr(pybullet_loading, "urdf", lambda *of: plain(*of).replace("</link>", shape))
             super().build(scene, scheme, dt)
 
 
@@ -190,38 +190,37 @@ class Busy(PyBullet):
 
     def build(self, scene, scheme, dt):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(pybullet_, "_quieted", functools.partial(self.awake, pybullet_._quieted))
+            patch.setattr(pybullet_, "quieted", functools.partial(self.awake, pybullet_loading.quieted))
             super().build(scene, scheme, dt)
 
     def readback(self):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(pybullet_, "_quieted", functools.partial(self.awake, pybullet_._quieted))
+            patch.setattr(pybullet_, "quieted", functools.partial(self.awake, pybullet_loading.quieted))
             return super().readback()
 
 
 class Motored(Busy):
     """Leaves on the motors that PyBullet's joints are born with."""
 
-    def awake(self, quieted, client, uid):
-        for link in range(pybullet_.p.getNumJoints(uid, client)):
-            yield pybullet_.p.getJointInfo(uid, link, client)[1].decode(), (uid, link)
+    def awake(self, quieted, p, client, uid):
+        for link in range(p.getNumJoints(uid, client)):
+            yield p.getJointInfo(uid, link, client)[1].decode(), (uid, link)
 
 
 class Driven(Busy):
     """Has one weak motor."""
 
-    def awake(self, quieted, client, uid):
-        yield from quieted(client, uid)
-        p = pybullet_.p
+    def awake(self, quieted, p, client, uid):
+        yield from quieted(p, client, uid)
         p.setJointMotorControl2(uid, 0, p.VELOCITY_CONTROL, force=1e-9, physicsClientId=client)
 
 
 class Sensing(Busy):
     """Has a sensor of force in the first joint of each tree."""
 
-    def awake(self, quieted, client, uid):
-        pybullet_.p.enableJointForceTorqueSensor(uid, 0, 1, client)
-        yield from quieted(client, uid)
+    def awake(self, quieted, p, client, uid):
+        p.enableJointForceTorqueSensor(uid, 0, 1, client)
+        yield from quieted(p, client, uid)
 
 
 class Framed(Pinocchio):

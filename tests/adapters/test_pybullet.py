@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pybullet as p
 import pytest
-from poinsot.adapters import pybullet_
+from poinsot.adapters import pybullet_loading
 from poinsot.adapters.engine import EngineError
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.reference import equations_of_motion
@@ -352,7 +352,7 @@ def test_the_same_name_twice_is_two_models(build, free, monkeypatch, tmp_path):
             return None
 
     # Not even the same file name brings back what was read before.
-    monkeypatch.setattr(pybullet_.tempfile, "TemporaryDirectory", SameFolder)
+    monkeypatch.setattr(pybullet_loading.tempfile, "TemporaryDirectory", SameFolder)
     for mass in (1.0, 2.0):
         assert build(free(mass=mass)).readback().values["body/body/mass"] == mass
 
@@ -376,11 +376,11 @@ def test_plates_are_built(build, free, scheme, turn):
 
 
 def test_what_pybullet_complains_of_is_an_error(build, free, monkeypatch, capfd):
-    real = pybullet_.urdf
-    monkeypatch.setattr(pybullet_, "urdf", lambda *a: real(*a).replace('ixx="0.01"', 'ixx="0.9"'))
+    real = pybullet_loading.urdf
+    monkeypatch.setattr(pybullet_loading, "urdf", lambda *a: real(*a).replace('ixx="0.01"', 'ixx="0.9"'))
     with pytest.raises(EngineError, match=r"PyBullet refuses trial: .*Bad inertia tensor"):
         build(free(inertia=diagonal(0.01, 0.015, 0.02)))
-    monkeypatch.setattr(pybullet_, "urdf", lambda *a: "<robot")
+    monkeypatch.setattr(pybullet_loading, "urdf", lambda *a: "<robot")
     with pytest.raises(EngineError, match=r"PyBullet refuses trial: .*XML_ERROR"):
         build(free())
     assert capfd.readouterr() == ("", "")

@@ -36,7 +36,7 @@ class ClampedSpring(PyBullet):
 
     def build(self, scene, scheme, dt):
         super().build(scene, scheme, dt)
-        for uid in self._world._at.hinged:
+        for uid in self._world.at.hinged:
             pybullet_.p.changeDynamics(uid, -1, maxJointVelocity=100, physicsClientId=self._world.client)
 
 
