@@ -11,13 +11,13 @@ TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)
 Row = Mapping[str, Any]
 
 
-def pareto_front(rows: Iterable[Row]) -> list[Row]:
-    """The rows of ``work_precision`` that no other beats in both error and time, the cheapest first.
+def pareto_front(rows: Iterable[Row], time: str = "seconds_min") -> list[Row]:
+    """The rows of ``work_precision`` that no other beats in both error and ``time``, the cheapest first.
 
     ``rows`` are of one scene and one observable; those not timed or without a finite error are left out.
     """
     found: list[Row] = []
-    for row in sorted(_comparable(rows), key=lambda row: (row["seconds_min"], row["error"])):
+    for row in sorted(_comparable(rows), key=lambda row: (row[time], row["error"])):
         if not found or row["error"] < found[-1]["error"]:
             found.append(row)
     return found

@@ -12,7 +12,9 @@ from ..reference.checked import Array
 from ..scenarios.pictures import Picture
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
+from .cheapest import pareto_front
 from .digest import Column, Record
+from .results import TIMES
 from .wording import count, number
 
 #: Points of the truth: a hundred a turn for twenty turns, more than a page can show.
@@ -39,8 +41,8 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
     """Error against run time and against the step, each for every observable of one scene.
 
     ``rows`` are those of ``work_precision`` for that scene. The result holds ``views``: label of
-    the observable, label of the x axis, plotly ``data``, the axes' titles, and a note on whatever
-    has no place on these axes. ``None`` where there are no rows.
+    the observable, label of the x axis, plotly ``data``, the axes' titles, the Pareto ``front``, and a note
+    on whatever has no place on these axes. ``None`` where there are no rows.
     """
     table = list(rows)
     if not table:
@@ -77,8 +79,17 @@ def _view(
         "x": title,
         "y": f"error of {name} [{unit}]",
         "data": [_line(column, x, lines[column], unit) for column in ordered],
+        "front": _front(x, [row for mine in lines.values() for row in mine]),
         "note": _not_drawn(lost, x),
     }
+
+
+def _front(x: str, rows: list[Record]) -> Figure | None:
+    """Where nothing is both cheaper and nearer, as a stair; of steps there is none."""
+    if x not in TIMES:
+        return None
+    best = pareto_front(rows, x)
+    return {"x": [_digits(row[x]) for row in best], "y": [_digits(row["error"]) for row in best]}
 
 
 def _on_log_axis(value: float | None) -> bool:

@@ -39,7 +39,8 @@
   }
 
   function show(plot, data, layout) {
-    const config = { displaylogo: false, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
+    const name = (plot.element.closest("article")?.id ?? "poinsot") + (plot.cost ? "-error" : "-motion");
+    const config = { displaylogo: false, toImageButtonOptions: { format: "svg", filename: name.replace(/[^\w.-]+/g, "-") }, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
     Plotly.react(plot.canvas, data, layout, config);
     plot.drawn = true;
   }
@@ -100,7 +101,11 @@
       ...line, visible: !plot.hidden.has(line.name),
       line: { ...line.line, color: color(line.meta) }, marker: { ...line.marker, color: color(line.meta) },
     }));
-    plot.element.querySelector(".view").textContent = view.note;
+    // Beneath all curves, and wide: what no configuration beats both in error and in time.
+    if (view.front) {
+      data.unshift({ type: "scatter", mode: "lines", name: "Pareto front", ...view.front, hoverinfo: "skip", line: { color: theme().grid, width: 9, shape: "hv" } });
+    }
+    plot.element.querySelector(".view").textContent = (view.front ? "Grey band: the Pareto front, which nothing beats in both error and run time. " : "") + view.note;
     show(plot, data, {
       ...frame(plot, 400),
       xaxis: logAxis(view.x, data.flatMap((line) => line.x)), yaxis: logAxis(view.y, data.flatMap((line) => line.y)),

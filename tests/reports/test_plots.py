@@ -56,6 +56,17 @@ def test_plotly_itself_accepts_every_line(results):
         assert len(drawn.data) == len(each["data"]) > 0
 
 
+def test_no_point_lies_below_the_front_and_the_front_falls(results):
+    found = view(results)
+    points = [point for line in found["data"] for point in zip(line["x"], line["y"], strict=True)]
+    front = list(zip(found["front"]["x"], found["front"]["y"], strict=True))
+    assert set(front) <= set(points)
+    assert sorted(front) == sorted(front, key=lambda point: -point[1]) == front
+    for x, y in points:
+        assert any(best_x <= x and best_y <= y for best_x, best_y in front)
+    assert view(results, against="step")["front"] is None
+
+
 def test_schemes_of_an_engine_share_its_colour_and_differ_in_sign_and_dash(results):
     lines = view(results)["data"]
     looks = {(line["meta"], line["marker"]["symbol"], line["line"]["dash"]) for line in lines}
