@@ -1,0 +1,191 @@
+"""What a ladder of runs shows, held against the equations and the scheme that it should have followed."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..reference import quaternions, tree_schemes
+from ..reference.checked import Array
+from ..scenarios.equations import states
+from ..scenarios.scene import Scene
+from ..scenarios.trajectory import Trajectory
+from .acceleration import expected
+from .cell import EPSILON, Cell
+from .fitting import size
+from .intervals import Intervals
+from .order import extrapolated
+from .supposed import Model
+
+#: Residuals below this many roundings are nothing: right engines stay below 10.
+NOTHING = 30.0
+#: Intervals that a number is fitted to.
+FITTED = 60
+#: The implicit scheme takes ∂f/∂v of every velocity at each step: past this many it takes minutes.
+MANY = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Cells of one scene, engine and scheme, from the coarsest step to the finest."""
+
+    cells: tuple[Cell, ...]
+
+    @classmethod
+    def of(cls, cells: Sequence[Cell]) -> "Evidence":
+        """The cells of a ladder, in any order."""
+        return cls(tuple(sorted(cells, key=lambda cell: -cell.provenance.dt)))
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of them all."""
+        return self.cells[0].scene
+
+    @cached_property
+    def cell(self) -> Cell:
+        """The one whose intervals are looked at: the coarsest of an even number of steps between samples."""
+        even = [c for c in self.cells if self.scene.steps_per_sample(c.provenance.dt) % 2 == 0]
+        return (even or self.cells)[0]
+
+    @property
+    def told(self) -> Trajectory:
+        """What that cell told."""
+        return self.cell.trajectory
+
+    @property
+    def scheme(self) -> str:
+        """The scheme by its twin name, or "exact" if that is not one that is known here."""
+        twin = self.cells[0].provenance.twin
+        if twin == "implicit gyroscopic" and len(self.scene.v0) <= MANY:
+            return twin
+        return twin if twin in tree_schemes.SCHEMES else "exact"
+
+    @cached_property
+    def intervals(self) -> Intervals | None:
+        """The run cut at its samples; of a scheme unknown here, the limit of the ladder for a step of 0."""
+        return self.cut(lambda told: told)
+
+    def cut(self, change: Callable[[Trajectory], Trajectory]) -> Intervals | None:
+        """As ``intervals``, with every trajectory changed before."""
+        if self.scheme != "exact":
+            return Intervals.of(self.scene, change(self.told))
+        every = [Intervals.of(self.scene, change(cell.trajectory)) for cell in self.cells]
+        found = [one for one in every if one is not None]
+        return _limit(found, self.cells[0].provenance.order) if len(found) >= 3 else None
+
+    @cached_property
+    def model(self) -> Model:
+        """The scene's own equations, as intervals take them."""
+        return Model.of(self.intervals.scene if self.intervals else self.scene)
+
+    @cached_property
+    def residual(self) -> Array:
+        """What every interval leaves over, (n, 2 nv), in roundings; empty where there are none."""
+        return self.of_intervals(self.intervals)
+
+    def of_intervals(self, intervals: Intervals | None) -> Array:
+        """The same of others."""
+        if intervals is None:
+            return np.empty((0, 0))
+        with np.errstate(all="ignore"):
+            return intervals.residual(self.model, self.scheme)
+
+    @cached_property
+    def per_interval(self) -> Array:
+        """Root mean square of each interval (n,)."""
+        return np.asarray(np.sqrt(np.mean(np.square(self.residual), axis=1)))
+
+    def explained(self, left: float, before: float) -> bool:
+        """Whether no more is left over than rounding, or what a term of higher order may leave."""
+        return left <= max(NOTHING, 1e-4 * before)
+
+    def fit_to_motion(self, model: Model) -> Array:
+        """Residual of a supposed model over some intervals."""
+        if self.intervals is None:
+            return np.empty(0)
+        n = len(self.intervals.q) - 1
+        which = np.unique(np.linspace(0, n - 1, min(n, FITTED)).astype(int))
+        return self.intervals.residual(model, self.scheme, which).ravel()
+
+    @cached_property
+    def accelerations(self) -> Array | None:
+        """The engine's at the states of the acceleration check (n, nv), if any cell logged them."""
+        logged = [cell.provenance.accelerations for cell in self.cells if cell.provenance.accelerations]
+        found = np.array(logged[0]) if logged else None
+        fits = found is not None and found.shape[1:] == (len(self.scene.v0),) and np.isfinite(found).all()
+        return found if fits else None
+
+    def fit_to_accelerations(self, model: Model) -> Array:
+        """Force that a supposed model leaves over at those states, in roundings of the forces in it."""
+        if self.accelerations is None:
+            return np.empty(0)
+        apart = self.accelerations - model.accelerate(*states(self.scene))
+        force = np.einsum("nij,nj->ni", self._weights, apart)
+        return np.asarray(force / (10 * EPSILON)).ravel()
+
+    @cached_property
+    def _weights(self) -> Array:
+        """From accelerations to forces (n, nv, nv), as parts of the largest in the scene's own equations."""
+        exact = expected(self.scene)
+        return np.asarray(exact.inertia / (exact.unit * exact.size[:, None])[..., None])
+
+    @cached_property
+    def plain(self) -> Model:
+        """The scene's own equations, as the acceleration check takes them."""
+        return Model.of(self.scene)
+
+    @cached_property
+    def inconsistent(self) -> float:
+        """How far what is told of bodies is from what is told of joints, in roundings."""
+        return inconsistency(self.intervals, self.told)
+
+    @cached_property
+    def elsewhere(self) -> float:
+        """How far the first state told is from the one asked for, in roundings."""
+        return 0.0 if self.intervals is None else _elsewhere(self.cell)
+
+    @property
+    def right(self) -> bool:
+        """Whether everything told follows from the start, by the scheme, to rounding."""
+        worst = max(size(self.residual), self.inconsistent, self.elsewhere)
+        return self.intervals is not None and worst <= NOTHING
+
+
+def inconsistency(intervals: Intervals | None, told: Trajectory) -> float:
+    """How far what ``told`` says of bodies is from what it says of joints, in roundings of its size."""
+    if intervals is None:
+        return 0.0
+    scale = {
+        "position": float(np.abs(told.position).max()),
+        "orientation": 1.0,
+        "velocity": float(np.abs(told.velocity).max()),
+        "omega": float(np.abs(told.omega).max()),
+    }
+    turns = 1 + float(np.abs(told.joint_position).max(initial=0.0))
+    parts = [
+        left / (10 * EPSILON * (scale[name] + 1e-9) * turns) for name, left in intervals.leftover.items()
+    ]
+    return max(parts)
+
+
+def _elsewhere(cell: Cell) -> float:
+    told, truth = cell.trajectory, cell.truth
+    turn = quaternions.product(quaternions.conjugate(truth.quaternion[0]), told.quaternion[0])
+    found = [float(np.abs(quaternions.rotation_vector(turn)).max())]
+    for name in ("position", "velocity", "omega"):
+        mine, its = getattr(told, name), getattr(truth, name)
+        found.append(float(np.abs(mine[0] - its[0]).max()) / (float(np.abs(its).max()) + 1e-9))
+    return max(found) / (100 * EPSILON)
+
+
+def _limit(every: Sequence[Intervals], order: int) -> Intervals:
+    """The states that a ladder's states tend to as the step goes to 0."""
+    finest = every[-1]
+    dts = [one.dt for one in every]
+    changes = [tree_schemes.apart(Model.of(one.scene).links, one.q, finest.q) for one in every]
+    dq, before_q = extrapolated(dts, changes, order)
+    v, before_v = extrapolated(dts, [one.v for one in every], order)
+    noise = np.concatenate([np.abs(dq - before_q).max(axis=0), np.abs(v - before_v).max(axis=0)])
+    q = tree_schemes.moved(Model.of(finest.scene).links, finest.q, dq)
+    return Intervals(finest.scene, q, v, finest.dt, finest.stride, finest.rounding + noise, finest.leftover)

@@ -1,0 +1,195 @@
+"""A run cut at its samples: what equations and scheme make of each state told, against the next one told.
+
+Over one interval nothing has time to grow, and each counts by itself: a wrong parameter shows in all of
+them, a reset in one, noise differently in each. Where the scheme is known here its own steps are taken,
+so that a right run leaves nothing over but rounding.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..reference import equations_of_motion, quaternions, tree_schemes
+from ..reference.checked import Array
+from ..scenarios.body import Body
+from ..scenarios.equations import links
+from ..scenarios.scene import Scene
+from ..scenarios.trajectory import Trajectory
+from .supposed import Model
+
+EPSILON = float(np.finfo(np.float64).eps)
+#: Steps of the fine scheme that an interval's exact flow is made of.
+FINE = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Intervals:
+    """The states told, as coordinates ``q`` (n, nq) and velocities ``v`` (n, nv) of a scene's joints.
+
+    ``scene`` has its free bodies' origins at their centres of mass. ``rounding`` (2 nv) is what rounding
+    may change in a state over one interval. ``leftover`` says, by name, how far what is told of bodies is
+    from what is told of joints.
+    """
+
+    scene: Scene
+    q: Array
+    v: Array
+    dt: float
+    stride: int
+    rounding: Array
+    leftover: dict[str, float]
+
+    @classmethod
+    def of(cls, scene: Scene, told: Trajectory) -> "Intervals | None":
+        """Those of a run; ``None`` where contacts or burning masses act, which the equations lack."""
+        if scene.contacts or scene.burning or told.provenance is None:
+            return None
+        dt, central = told.provenance.dt, centred(scene)
+        state = coordinates(central, told)
+        if state is None:
+            return None
+        q, v = state
+        stride = scene.steps_per_sample(dt)
+        return cls(
+            central, q, v, dt, stride, _rounding(central, q, v, stride), _leftover(central, told, q, v)
+        )
+
+    def residual(
+        self,
+        model: Model,
+        scheme: str,
+        which: Array | None = None,
+        stretch: float = 1.0,
+        steps: int | None = None,
+    ) -> Array:
+        """What is told less what follows, (k, 2 nv), in units of rounding; ``which`` (k,) of the intervals.
+
+        ``scheme`` is a twin name of `tree_schemes`, or "exact" for the flow itself, ``stretch`` a factor on
+        dt and ``steps`` how many an interval has, where they are not those asked for.
+        """
+        chosen = np.arange(len(self.q) - 1) if which is None else which
+        q, v = self.advanced(model, scheme, chosen, stretch, steps)
+        dq = tree_schemes.apart(model.links, self.q[chosen + 1], q)
+        return np.asarray(np.hstack([dq, self.v[chosen + 1] - v]) / self.rounding)
+
+    def advanced(
+        self,
+        model: Model,
+        scheme: str,
+        chosen: Array,
+        stretch: float = 1.0,
+        steps: int | None = None,
+    ) -> tuple[Array, Array]:
+        """Where the scheme leads over one interval, from each of the ``chosen`` states."""
+        count, dt, name = self.stride if steps is None else steps, self.dt * stretch, scheme
+        if scheme == "exact":
+            count, dt, name = FINE, dt * count / FINE, "RKMK4"
+        start = self.q[chosen], self.v[chosen]
+        return tree_schemes.advanced(name, model.links, model.accelerate, *start, dt, count, model.linearised)
+
+
+def centred(scene: Scene) -> Scene:
+    """``scene`` with the origins of its free bodies at their centres of mass, where engines step them.
+
+    Coordinates that do not come from `coordinates` do not belong to it.
+    """
+    offsets = {body.name: np.array(body.center_of_mass) for body in scene.bodies if _free(body)}
+    none = np.zeros(3)
+    bodies = tuple(
+        replace(
+            body,
+            center_of_mass=_tuple(np.array(body.center_of_mass) - offsets.get(body.name, none)),
+            position=_tuple(np.array(body.position) - offsets.get(body.parent or "", none)),
+        )
+        for body in scene.bodies
+    )
+    return replace(scene, bodies=bodies)
+
+
+def coordinates(scene: Scene, told: Trajectory) -> tuple[Array, Array] | None:
+    """The joints' coordinates (n, nq) and velocities (n, nv) in a motion of a centred scene.
+
+    ``None`` where a ball shares its body with other joints: then bodies alone do not tell.
+    """
+    q, v = np.zeros((len(told.t), len(scene.q0))), np.zeros((len(told.t), len(scene.v0)))
+    names, scalar = [body.name for body in scene.bodies], 0
+    for body, joint, at_q, at_v in scene.slices():
+        at = names.index(body.name)
+        if joint.kind in ("hinge", "slide"):
+            q[:, at_q.start], v[:, at_v.start] = (
+                told.joint_position[:, scalar],
+                told.joint_velocity[:, scalar],
+            )
+            scalar += 1
+        elif joint.kind == "free":
+            q[:, at_q] = np.hstack([told.position[:, at], told.quaternion[:, at]])
+            v[:, at_v] = np.hstack([told.velocity[:, at], told.omega[:, at]])
+        elif len(body.joints) > 1:
+            return None
+        else:
+            parent = names.index(body.parent) if body.parent else -1
+            q[:, at_q], v[:, at_v] = _ball(told, body, at, parent)
+    return q, v
+
+
+def _ball(told: Trajectory, body: Body, at: int, parent: int) -> tuple[Array, Array]:
+    turn, omega = told.quaternion[:, at], told.omega[:, at]
+    place = np.broadcast_to(np.array(body.quaternion), turn.shape)
+    if parent >= 0:
+        carrier = told.quaternion[:, parent]
+        world = quaternions.rotated(carrier, told.omega[:, parent])
+        omega = omega - quaternions.rotated(quaternions.conjugate(turn), world)
+        place = quaternions.product(carrier, place)
+    return quaternions.product(quaternions.conjugate(place), turn), omega
+
+
+def _rounding(scene: Scene, q: Array, v: Array, stride: int) -> Array:
+    """What a few roundings an interval come to: of the largest coordinate and velocity of each sort."""
+    linear, angular = np.zeros(v.shape[1], bool), np.zeros(v.shape[1], bool)
+    size = np.ones(v.shape[1])
+    for _, joint, at_q, at_v in scene.slices():
+        straight = {"free": 3, "slide": 1}.get(joint.kind, 0)
+        linear[at_v.start : at_v.start + straight] = True
+        if straight:
+            size[at_v.start : at_v.start + straight] = np.abs(q[:, at_q][:, :straight]).max()
+        if joint.kind == "hinge":
+            size[at_v] = max(1.0, np.abs(q[:, at_q]).max())
+    angular[:] = ~linear
+    speed = np.ones(v.shape[1])
+    for sort in (linear, angular):
+        fastest = np.abs(v[:, sort]).max(initial=0.0)
+        speed[sort] = max(fastest, 1 / scene.duration)
+        if sort is linear and linear.any():
+            size[sort] = max(size[sort].max(), fastest * scene.duration / scene.samples)
+    share = EPSILON * (4 + 2 * np.sqrt(stride))
+    return np.asarray(np.concatenate([share * size, share * speed]))
+
+
+def _leftover(scene: Scene, told: Trajectory, q: Array, v: Array) -> dict[str, float]:
+    position, quaternion, velocity, omega = equations_of_motion.link_motion(links(scene), _unit(scene, q), v)
+    turn = quaternions.product(quaternions.conjugate(quaternion), told.quaternion)
+    found = {
+        "position": told.position - position,
+        "orientation": quaternions.rotation_vector(turn),
+        "velocity": told.velocity - velocity,
+        "omega": told.omega - omega,
+    }
+    return {name: float(np.abs(values).max()) for name, values in found.items()}
+
+
+def _unit(scene: Scene, q: Array) -> Array:
+    result = np.array(q)
+    for _, joint, at, _ in scene.slices():
+        if joint.kind in ("free", "ball"):
+            turn = result[:, at][:, -4:]
+            turn /= np.linalg.norm(turn, axis=1, keepdims=True)
+    return result
+
+
+def _free(body: Body) -> bool:
+    return any(joint.kind == "free" for joint in body.joints)
+
+
+def _tuple(vector: Array) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z

@@ -1,0 +1,80 @@
+"""Equations of motion that a run may have followed: the scene's own, or with something else in them."""
+
+from collections.abc import Callable
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..reference import equations_of_motion
+from ..reference.checked import Array
+from ..reference.equations_of_motion import Link
+from ..scenarios.equations import links
+from ..scenarios.forces import Force, forces_on
+from ..scenarios.scene import Scene
+
+
+def changed(link: Link, **parts: Any) -> Link:
+    """``link`` with other parts, unchecked: a hypothesis may have an inertia that no body has."""
+    other = copy(link)
+    for name, value in parts.items():
+        object.__setattr__(other, name, value)
+    return other
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Equations of motion that a run may have followed: the scene's, or with something else in them.
+
+    ``extra(q, v)`` is a further force (n, nv) along the velocities.
+    """
+
+    scene: Scene
+    links: tuple[Link, ...]
+    gravity: Array
+    forces: tuple[Force, ...]
+    extra: Callable[[Array, Array], Array] | None = None
+
+    @classmethod
+    def of(cls, scene: Scene) -> "Model":
+        """The scene's own equations."""
+        return cls(scene, tuple(links(scene)), np.array(scene.gravity), scene.forces)
+
+    def with_link(self, body: int, **parts: Any) -> "Model":
+        """The same with other parts of one link."""
+        every = list(self.links)
+        every[body] = changed(every[body], **parts)
+        return replace(self, links=tuple(every))
+
+    def pushed(self, q: Array, v: Array) -> Array:
+        """Forces from outside (n, b, 3) [N]."""
+        if not self.forces:
+            return np.zeros((len(q), len(self.links), 3))
+        position, _, velocity, _ = equations_of_motion.link_motion(self.links, q, v)
+        masses = [replace(b, mass=link.mass) for b, link in zip(self.scene.bodies, self.links, strict=True)]
+        push = forces_on(masses, self.forces)
+        return np.array([push(*at) for at in zip(position, velocity, strict=True)])
+
+    def accelerate(self, q: Array, v: Array) -> Array:
+        """v̇ (n, nv) at ``q`` (n, nq) and ``v`` (n, nv)."""
+        more = None if self.extra is None else self.extra(q, v)
+        return equations_of_motion.accelerations(self.links, q, v, self.gravity, more, self.pushed(q, v))
+
+    def left_over(self, q: Array, v: Array, a: Array) -> Array:
+        """Force (n, nv) that is missing for v̇ to be ``a``."""
+        more = None if self.extra is None else self.extra(q, v)
+        return equations_of_motion.required_forces(self.links, q, v, a, self.gravity, more, self.pushed(q, v))
+
+    def linearised(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """Mass matrix and −∂f/∂v (n, nv, nv), of all forces but those from outside."""
+        columns = []
+        for direction in np.eye(v.shape[1]):
+            # Forces are of second degree in the velocities: a central difference of any width is exact.
+            there, back = (self._inner(q, v + side * direction) for side in (0.5, -0.5))
+            columns.append(there - back)
+        return equations_of_motion.mass_matrix(self.links, q), np.stack(columns, axis=-1)
+
+    def _inner(self, q: Array, v: Array) -> Array:
+        more = None if self.extra is None else self.extra(q, v)
+        return equations_of_motion.required_forces(self.links, q, v, 0 * v, self.gravity, more)

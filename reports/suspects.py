@@ -1,0 +1,325 @@
+"""What may be wrong in an engine's equations of motion: one number each, and the sentence that names it."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from ..reference import equations_of_motion, quaternions
+from ..reference.checked import Array
+from ..reference.tree_kinematics import motion, summed
+from .supposed import Model
+
+#: A model with the number set to what it is in the scene is the scene's own.
+Change = Callable[[Model, float], Model]
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """``change(model, x)`` puts it in; x = 0 is right. ``words(x)`` say what x means.
+
+    Of several suspects of one ``part`` that explain a motion equally well, the first to be listed speaks.
+    """
+
+    change: Change
+    words: Callable[[float], str]
+    part: str = ""
+
+
+def suspects(model: Model) -> Iterator[Suspect]:
+    """Everything of one number that can be wrong with a scene's equations."""
+    if np.any(model.gravity):
+        yield from _gravity(model)
+    for body in range(len(model.links)):
+        yield from _body(model, body)
+    yield from _joints(model)
+    yield from _terms(model)
+    for place in range(len(model.forces)):
+        yield from _force(model, place)
+    if len(model.links) > 1:
+        yield from _together(model)
+
+
+def alternatives(model: Model) -> Iterator[tuple[str, Model]]:
+    """Models that differ from the scene's by a plain mistake, with no number to fit."""
+    for place, (body, link) in enumerate(zip(model.scene.bodies, model.links, strict=True)):
+        tensor, com = np.asarray(link.inertia), np.asarray(link.com)
+        for order in ((0, 2, 1), (2, 1, 0), (1, 0, 2), (1, 2, 0), (2, 0, 1)):
+            turned = tensor[np.ix_(order, order)]
+            if not np.allclose(turned, tensor, rtol=1e-12, atol=0):
+                yield (
+                    f"inertia axes of body {body.name!r} are permuted",
+                    model.with_link(place, inertia=turned),
+                )
+        if np.any(tensor - np.diag(np.diag(tensor))):
+            name = f"rotation of the inertia of body {body.name!r} is lost"
+            yield name, model.with_link(place, inertia=np.diag(np.linalg.eigvalsh(tensor)))
+            yield name, model.with_link(place, inertia=np.diag(np.linalg.eigvalsh(tensor)[::-1]))
+            lost = f"products of inertia of body {body.name!r} are lost"
+            yield lost, model.with_link(place, inertia=np.diag(np.diag(tensor)))
+        if np.any(com):
+            moved = link.mass * (com @ com * np.eye(3) - np.outer(com, com))
+            for sign in (1, -1):
+                words = (
+                    f"inertia of body {body.name!r} is taken about its {'frame' if sign > 0 else 'centre'}"
+                )
+                at = ", not its centre of mass" if sign > 0 else " of mass twice"
+                yield words + at, model.with_link(place, inertia=tensor + sign * moved)
+            yield f"centre of mass of body {body.name!r} is at its frame", model.with_link(place, com=0 * com)
+
+
+def share(x: float) -> str:
+    """A relative change in words: 0.1 % high."""
+    return f"{abs(100 * x):.3g} % {'high' if x > 0 else 'low'}"
+
+
+def _gravity(model: Model) -> Iterator[Suspect]:
+    size = float(np.linalg.norm(model.gravity))
+
+    def words(x: float) -> str:
+        if abs(x + 2) < 1e-6:
+            return "gravity has the wrong sign"
+        if abs(x + 1) < 1e-6:
+            return "gravity is missing"
+        return f"gravity is {size * (1 + x):.9g} m/s², not {size:.9g}"
+
+    yield Suspect(lambda m, x: replace(m, gravity=m.gravity * (1 + x)), words, "gravity")
+    for side in np.eye(3)[[abs(axis @ model.gravity) < 0.5 * size for axis in np.eye(3)]]:
+        yield Suspect(
+            lambda m, x, side=side: replace(m, gravity=m.gravity + x * size * side),  # type: ignore[misc]
+            lambda x, side=side: f"gravity leans by {x:.3g} rad along {_axis(side)}",  # type: ignore[misc]
+            f"gravity {_axis(side)}",
+        )
+
+
+def _body(model: Model, at: int) -> Iterator[Suspect]:
+    link, name = model.links[at], model.scene.bodies[at].name
+    tensor, com = np.asarray(link.inertia), np.asarray(link.com)
+    size = float(np.trace(tensor)) / 3
+
+    def mass(m: Model, x: float) -> Model:
+        return m.with_link(at, mass=link.mass * (1 + x))
+
+    def dense(m: Model, x: float) -> Model:
+        return m.with_link(at, mass=link.mass * (1 + x), inertia=tensor * (1 + x))
+
+    yield Suspect(mass, lambda x: f"mass of body {name!r} is {share(x)}", f"mass {name}")
+    if size:
+        yield Suspect(dense, lambda x: f"mass and inertia of body {name!r} are {share(x)}", f"mass {name}")
+        yield Suspect(
+            lambda m, x: m.with_link(at, inertia=tensor * (1 + x)),
+            lambda x: f"inertia of body {name!r} is {share(x)}",
+            f"inertia {name}",
+        )
+    reach = float(np.linalg.norm(com)) or (size / link.mass) ** 0.5 or 1.0
+    for k in range(3):
+        yield Suspect(
+            lambda m, x, k=k: m.with_link(at, com=com + x * reach * np.eye(3)[k]),  # type: ignore[misc]
+            lambda x, k=k: (  # type: ignore[misc]
+                f"centre of mass of body {name!r} is displaced by {x * reach:.3g} m along its axis {k + 1}"
+            ),
+            f"centre {name} {k}",
+        )
+    for i in range(3 if size else 0):
+        for j in range(i, 3):
+            yield _element(at, name, tensor, i, j, size)
+
+
+def _element(at: int, name: str, tensor: Array, i: int, j: int, size: float) -> Suspect:
+    unit = np.zeros((3, 3))
+    unit[i, j] = unit[j, i] = tensor[i, i] if i == j and tensor[i, i] else size
+
+    def words(x: float) -> str:
+        if i == j:
+            return f"moment I{i + 1} of body {name!r} is {share(x)}"
+        return f"product of inertia I{i + 1}{j + 1} of body {name!r} is off by {x * size:.3g} kg m²"
+
+    return Suspect(lambda m, x: m.with_link(at, inertia=tensor + x * unit), words, f"inertia {name} {i} {j}")
+
+
+def _together(model: Model) -> Iterator[Suspect]:
+    """The same mistake in every body or joint."""
+
+    def masses(m: Model, x: float) -> Model:
+        for at, link in enumerate(model.links):
+            m = m.with_link(at, mass=link.mass * (1 + x))
+        return m
+
+    def tensors(m: Model, x: float) -> Model:
+        for at, link in enumerate(model.links):
+            m = m.with_link(at, inertia=np.asarray(link.inertia) * (1 + x))
+        return m
+
+    def springs(m: Model, q: Array, v: Array) -> Array:
+        result = np.zeros_like(v)
+        for _, joint, at_q, at_v in m.scene.slices():
+            if joint.kind in ("hinge", "slide"):
+                result[:, at_v] = joint.stiffness * q[:, at_q]
+        return result
+
+    yield Suspect(masses, lambda x: f"masses of all bodies are {share(x)}", "all masses")
+    yield Suspect(tensors, lambda x: f"inertias of all bodies are {share(x)}", "all inertias")
+    if sum(bool(joint.stiffness) for joint in model.scene.joints) > 1:
+        yield Suspect(
+            _added(springs), lambda x: f"spring stiffness of all joints is {share(x)}", "all springs"
+        )
+
+
+def _joints(model: Model) -> Iterator[Suspect]:
+    for _, joint, at_q, at_v in model.scene.slices():
+        if joint.kind not in ("hinge", "slide"):
+            continue
+        q, v, name, unit = at_q.start, at_v.start, joint.name, "N m" if joint.kind == "hinge" else "N"
+        k = joint.stiffness
+        if k:
+            yield Suspect(
+                _forced(v, lambda at, going, q=q, k=k: -k * at[:, q]),  # type: ignore[misc]
+                lambda x, name=name: f"spring stiffness of joint {name!r} is {share(x)}",  # type: ignore[misc]
+            )
+            yield Suspect(
+                _forced(v, lambda at, going, k=k: k + 0 * at[:, 0]),  # type: ignore[misc]
+                lambda x, name=name: f"rest position of the spring of joint {name!r} is off by {x:.3g}",  # type: ignore[misc]
+            )
+        if joint.damping:
+            yield Suspect(
+                _forced(v, lambda at, going, v=v, c=joint.damping: -c * going[:, v]),  # type: ignore[misc]
+                lambda x, name=name: f"damping of joint {name!r} is {share(x)}",  # type: ignore[misc]
+            )
+        else:
+            yield Suspect(
+                _forced(v, lambda at, going, v=v: -going[:, v]),  # type: ignore[misc]
+                lambda x, name=name, u=unit: (
+                    f"joint {name!r} is damped by {x:.3g} {u} s, with none asked for"
+                ),  # type: ignore[misc]
+            )
+        yield Suspect(
+            _forced(v, lambda at, going, v=v: -np.sign(going[:, v])),  # type: ignore[misc]
+            lambda x, name=name, u=unit: f"joint {name!r} has a dry friction of {x:.3g} {u}",  # type: ignore[misc]
+        )
+        yield Suspect(
+            _forced(v, lambda at, going: 1 + 0 * at[:, 0]),
+            lambda x, name=name, u=unit: f"a steady {x:.3g} {u} acts on joint {name!r}, as of a motor",  # type: ignore[misc]
+        )
+        if np.any(model.gravity):
+            yield Suspect(
+                _forced(v, _linear_weight(model, q, v)),
+                lambda x, name=name: f"weight on joint {name!r} is linear in its angle, in place of the sine",  # type: ignore[misc]
+            )
+
+
+def _terms(model: Model) -> Iterator[Suspect]:
+    every = "gyroscopic and Coriolis terms"
+    yield Suspect(_added(_gyroscopic), lambda x: f"gyroscopic term {_times(1 + x)}", "turning")
+    yield Suspect(_added(_bias), lambda x: f"{every} {_times(1 + x, plural=True)}", "turning")
+    names = [joint.name for _, joint, _, at in model.scene.slices() for _ in range(at.stop - at.start)]
+    for k, name in enumerate(names if len(names) <= 12 else []):
+
+        def along(m: Model, q: Array, v: Array, k: int = k) -> Array:
+            return _bias(m, q, v) * np.eye(v.shape[1])[k]
+
+        yield Suspect(
+            _added(along),
+            lambda x, name=name: f"Coriolis term along joint {name!r} {_times(1 + x)}",  # type: ignore[misc]
+            "turning",
+        )
+    for growing in (False, True):
+        for turning in (True, False):
+            yield _damping(turning, growing)
+
+
+def _times(factor: float, plural: bool = False) -> str:
+    """What became of a term that is multiplied by ``factor``."""
+    be = "are" if plural else "is"
+    known = {0: "missing", 2: "doubled", -1: "of the wrong sign"}
+    near = round(factor)
+    return f"{be} {known[near] if near in known and abs(factor - near) < 1e-3 else share(factor - 1)}"
+
+
+def _damping(turning: bool, growing: bool) -> Suspect:
+    """Drag on every body, as a part of its momentum; ``growing`` by as much again with each unit of speed."""
+
+    def drag(m: Model, q: Array, v: Array) -> Array:
+        state = motion(m.links, q, v)
+        partial = state.partial_omega if turning else state.partial_velocity
+        speed = summed(partial, v)
+        scale = 1 + np.linalg.norm(speed, axis=-1, keepdims=True) if growing else 1.0
+        masses = np.array([link.mass for link in m.links])[:, None]
+        R = quaternions.matrix(state.quaternion)
+        tensor = R @ np.stack([np.asarray(link.inertia) for link in m.links]) @ np.swapaxes(R, -1, -2)
+        momentum = (tensor @ speed[..., None])[..., 0] if turning else masses * speed
+        return np.asarray(np.sum(partial * (scale * momentum)[..., None, :], axis=(-3, -1)))
+
+    name = "angular" if turning else "linear"
+    return Suspect(_added(drag), lambda x: f"{name} damping ≈ {x:.3g} /s", f"{name} damping")
+
+
+def _force(model: Model, place: int) -> Iterator[Suspect]:
+    force = model.forces[place]
+    name = type(force).__name__
+    for part in fields(force):  # type: ignore[arg-type]
+        value = getattr(force, part.name)
+        if part.name.lower() == "center" or isinstance(value, str) or not np.any(np.asarray(value)):
+            continue
+
+        def scaled(m: Model, x: float, part: str = part.name, value: object = value) -> Model:
+            times = np.asarray(value) * (1 + x)
+            other = replace(force, **{part: tuple(times.tolist()) if times.ndim else float(times)})  # type: ignore[type-var]
+            return replace(m, forces=(*m.forces[:place], other, *m.forces[place + 1 :]))
+
+        yield Suspect(
+            scaled,
+            lambda x, part=part.name: f"{part} of the {name} force {_times(1 + x)}",  # type: ignore[misc]
+        )
+
+
+def _forced(at: int, force: Callable[[Array, Array], Array]) -> Change:
+    """X times ``force`` along one velocity."""
+
+    def along(m: Model, q: Array, v: Array) -> Array:
+        result = np.zeros_like(v)
+        result[:, at] = -force(q, v)
+        return result
+
+    return _added(along)
+
+
+def _added(term: Callable[[Model, Array, Array], Array]) -> Change:
+    """X times more of a ``term`` that stands on the side of inertia."""
+    return lambda m, x: replace(m, extra=lambda q, v: -x * term(m, q, v))
+
+
+def _bias(m: Model, q: Array, v: Array) -> Array:
+    return equations_of_motion.bias(m.links, q, v)
+
+
+def _gyroscopic(m: Model, q: Array, v: Array) -> Array:
+    """What ω×Iω of all links is along each velocity."""
+    state = motion(m.links, q, v)
+    R = quaternions.matrix(state.quaternion)
+    tensor = R @ np.stack([np.asarray(link.inertia) for link in m.links]) @ np.swapaxes(R, -1, -2)
+    omega = summed(state.partial_omega, v)
+    torque = np.cross(omega, (tensor @ omega[..., None])[..., 0])
+    return np.asarray(np.sum(state.partial_omega * torque[..., None, :], axis=(-3, -1)))
+
+
+def _linear_weight(model: Model, at_q: int, at_v: int) -> Callable[[Array, Array], Array]:
+    """The weight along a velocity as it would be if it grew with the coordinate, less what it is."""
+
+    def weight(q: Array) -> Array:
+        still = np.zeros((len(q), len(model.scene.v0)))
+        acting = equations_of_motion.required_forces(model.links, q, still, still, model.gravity)
+        return -acting[:, at_v]
+
+    def difference(q: Array, v: Array) -> Array:
+        near, width = np.array(q), 1e-5
+        near[:, at_q] = width
+        far = np.array(near)
+        far[:, at_q] = -width
+        slope = (weight(near) - weight(far)) / (2 * width)
+        return slope * q[:, at_q] - weight(q)
+
+    return difference
+
+
+def _axis(side: Array) -> str:
+    return "xyz"[int(np.argmax(side))]
