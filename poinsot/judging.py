@@ -13,11 +13,12 @@ from .adapters import log
 from .reference.errors import InputError
 from .reports import order, results, truth
 from .reports.cell import Cell
+from .reports.common_causes import Localisation
 from .reports.digest import Column, columns
 from .reports.judge import judge
 from .reports.plots import Figure, Motion, motion_figures
 from .reports.results import CellRecord, Key
-from .reports.verdict import Ladder, Verdict
+from .reports.verdict import Ladder, Status, Verdict
 from .scenarios.registry import scenes as all_scenes
 from .scenarios.trajectory import Trajectory
 
@@ -27,6 +28,7 @@ class Judged:
     """What the logs of one scene, or of several, came to."""
 
     verdicts: list[Verdict] = field(default_factory=list)
+    localised: list[Localisation] = field(default_factory=list)
     rows: list[dict[str, Any]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     partly: set[Ladder] = field(default_factory=set)
@@ -35,6 +37,7 @@ class Judged:
     def add(self, other: "Judged") -> None:
         """Append what another scene came to."""
         self.verdicts += other.verdicts
+        self.localised += other.localised
         self.rows += other.rows
         self.notes += other.notes
         self.partly |= other.partly
@@ -79,13 +82,24 @@ def _judged(
     known = all_scenes()
     motions = [_read(folder, record) for record in records]
     cells = [Cell.of(motion, known) for motion in motions]
+    verdicts = judge(motions)
     return Judged(
-        verdicts=judge(motions),
+        verdicts=verdicts,
+        localised=_localised(cells, verdicts),
         rows=results.precision_rows(cells, seconds),
         notes=[_without(cell, missing) for cell in cells if (missing := truth.without_constant(cell))],
         partly=order.partly(cells),
         pictures={records[0].scene: motion_figures(_shown(cells), every)},
     )
+
+
+def _localised(cells: Sequence[Cell], verdicts: Sequence[Verdict]) -> list[Localisation]:
+    """What most likely is wrong where a check fails."""
+    if not any(verdict.status is Status.FAIL for verdict in verdicts):
+        return []
+    from .reports import localisation  # a run without failures does without it
+
+    return localisation.localised(cells, verdicts)
 
 
 def _shown(cells: Sequence[Cell]) -> Motion:

@@ -111,6 +111,7 @@ def report(
         facts,
         list(dict.fromkeys([*notes, *came.notes])),
         stale,
+        came.localised,
     )
     pages.write(folder, found, came.pictures)
     return found

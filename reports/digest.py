@@ -121,6 +121,8 @@ class Digest:
             raise InputError(f"results: got schema {results.get('schema')!r}, expected {SCHEMA!r}")
         self.cells: tuple[Record, ...] = tuple(results["cells"])
         self.command, self.started, self.seconds, self.facts = _facts(results["environment"])
+        # Results of an earlier version say nothing of causes.
+        self.likely_causes: tuple[Record, ...] = tuple(results.get("likely_causes", ()))
         self.notes: tuple[str, ...] = tuple(results["notes"])
         self.work_precision: tuple[Record, ...] = tuple(results["work_precision"])
         # A scene that only the cells know is shown too, without words of its own.

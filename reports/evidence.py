@@ -22,6 +22,8 @@ from .supposed import Model
 NOTHING = 30.0
 #: Intervals that a number is fitted to.
 FITTED = 60
+#: Intervals that are looked at before all of them are.
+FEW = 5
 #: The implicit scheme takes ∂f/∂v of every velocity at each step: past this many it takes minutes.
 MANY = 20
 
@@ -91,6 +93,16 @@ class Evidence:
         with np.errstate(all="ignore"):
             return intervals.residual(self.model, self.scheme)
 
+    def followed(self, intervals: Intervals, scheme: str = "", stretch: float = 1.0, steps: int = 0) -> bool:
+        """Whether intervals are those of a scheme and its steps, the ladder's own if none are named."""
+        scheme, n, count = scheme or self.scheme, len(intervals.q) - 1, steps or intervals.stride
+        with np.errstate(all="ignore"):
+            # Most that are not differ in any few.
+            for which in (np.arange(0, n, max(1, n // FEW)), np.arange(n)):
+                if size(intervals.residual(self.model, scheme, which, stretch, count)) > NOTHING:
+                    return False
+        return True
+
     @cached_property
     def per_interval(self) -> Array:
         """Root mean square of each interval (n,)."""
@@ -147,9 +159,9 @@ class Evidence:
 
     @property
     def right(self) -> bool:
-        """Whether everything told follows from the start, by the scheme, to rounding."""
+        """Whether everything told follows from the start, by a scheme known here, to rounding."""
         worst = max(size(self.residual), self.inconsistent, self.elsewhere)
-        return self.intervals is not None and worst <= NOTHING
+        return self.intervals is not None and self.scheme != "exact" and worst <= NOTHING
 
 
 def inconsistency(intervals: Intervals | None, told: Trajectory) -> float:

@@ -13,6 +13,7 @@ from plotly.offline.offline import get_plotlyjs
 
 from ..scenarios.scene import FEATURES
 from .cheapest import cheapest
+from .common_causes import spoken
 from .digest import Column, Digest, Group, Record
 from .findings import findings
 from .plots import Figure, cost_figure
@@ -71,6 +72,7 @@ def _environment() -> Environment:
         "breakable": _breakable,
         "reference": lambda text: quote(printable(text)),
         "verdict_rows": _verdict_rows,
+        "spoken": spoken,
         "in_words": lambda feature: FEATURES.get(feature, feature),
     }
     environment.globals |= {

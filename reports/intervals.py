@@ -8,6 +8,7 @@ so that a right run leaves nothing over but rounding.
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from ..reference import equations_of_motion, quaternions, tree_schemes
 from ..reference.checked import Array
@@ -16,6 +17,9 @@ from ..scenarios.equations import links
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
 from .supposed import Model
+
+#: Numbers of intervals.
+Places = npt.NDArray[np.intp]
 
 EPSILON = float(np.finfo(np.float64).eps)
 #: Steps of the fine scheme that an interval's exact flow is made of.
@@ -58,7 +62,7 @@ class Intervals:
         self,
         model: Model,
         scheme: str,
-        which: Array | None = None,
+        which: Places | None = None,
         stretch: float = 1.0,
         steps: int | None = None,
     ) -> Array:
@@ -67,7 +71,7 @@ class Intervals:
         ``scheme`` is a twin name of `tree_schemes`, or "exact" for the flow itself, ``stretch`` a factor on
         dt and ``steps`` how many an interval has, where they are not those asked for.
         """
-        chosen = np.arange(len(self.q) - 1) if which is None else which
+        chosen = np.asarray(np.arange(len(self.q) - 1) if which is None else which, dtype=np.intp)
         q, v = self.advanced(model, scheme, chosen, stretch, steps)
         dq = tree_schemes.apart(model.links, self.q[chosen + 1], q)
         return np.asarray(np.hstack([dq, self.v[chosen + 1] - v]) / self.rounding)
@@ -76,7 +80,7 @@ class Intervals:
         self,
         model: Model,
         scheme: str,
-        chosen: Array,
+        chosen: Places,
         stretch: float = 1.0,
         steps: int | None = None,
     ) -> tuple[Array, Array]:

@@ -6,7 +6,7 @@ one that leaves nothing over but rounding speaks. Where none does, the sentence 
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..reference.checked import Array
 from ..reference.errors import InputError
 from ..reference.tree_schemes import moved
 from .cell import Cell
+from .common_causes import Localisation
 from .evidence import NOTHING, Evidence, inconsistency
 from .fitting import Explanation, Residual, fitted, size
 from .intervals import Intervals
@@ -27,22 +28,13 @@ from .wording import listed
 
 NOT_FOUND = "not localised"
 #: Time [s] after which no further ladder is looked into: an engine wrong everywhere is wrong in one way.
-LONGEST = 60.0
+LONGEST = 30.0
 #: Rounds in which a velocity that its own acceleration depends on settles.
 SETTLED = 20
 
 
-@dataclass(frozen=True)
-class Localisation:
-    """What most likely is wrong with an engine's scheme in a scene; not ``found`` if nothing explains it."""
-
-    ladder: Ladder
-    sentence: str
-    found: bool
-
-
 def localised(cells: Sequence[Cell], verdicts: Iterable[Verdict]) -> list[Localisation]:
-    """A sentence for each ladder of ``cells`` in which a check fails; nothing where none does."""
+    """What most likely is wrong in each ladder of ``cells`` in which a check fails."""
     failed: dict[Ladder, list[Verdict]] = defaultdict(list)
     for verdict in verdicts:
         if verdict.status is Status.FAIL:
@@ -51,47 +43,44 @@ def localised(cells: Sequence[Cell], verdicts: Iterable[Verdict]) -> list[Locali
     for cell in cells:
         if ladder_of(cell.provenance) in failed and cell.trajectory.first_not_finite() is None:
             ladders[ladder_of(cell.provenance)].append(cell)
-    since, result = perf_counter(), []
+    since, result = perf_counter(), list[Localisation]()
     for ladder, mine in ladders.items():
         if perf_counter() - since > LONGEST:
-            said = f"{NOT_FOUND}: not looked into, after {len(result)} others"
-        else:
-            said = sentence(mine, failed[ladder])
-        result.append(Localisation(ladder, said, not said.startswith(NOT_FOUND)))
+            late = f"{NOT_FOUND}: not looked into, after {len(result)} others"
+            result.append(Localisation(ladder, (late,), found=False))
+            continue
+        causes = _causes(mine, failed[ladder])
+        result.append(Localisation(ladder, causes or (_nothing(mine, failed[ladder]),), bool(causes)))
     return result
 
 
-def sentence(cells: Sequence[Cell], failed: Sequence[Verdict]) -> str:
-    """What most likely is wrong with the runs of one ladder, of whose checks ``failed`` did."""
+def _causes(cells: Sequence[Cell], failed: Sequence[Verdict]) -> tuple[str, ...]:
+    """Sentences that explain the runs of one ladder, of whose checks ``failed`` did; empty if none does."""
     evidence = Evidence.of(cells)
     if evidence.right:
         return _of_a_right_motion(evidence, failed)
-    for found in (plain, _telling, _stepping, _equations, weaker):
-        said = found(evidence)
-        if said:
-            return said
-    return _nothing(evidence, failed)
+    for look in (plain, _at_states, _telling, _stepping, _in_motion, weaker):
+        found = look(evidence)
+        if found:
+            return (found,) if isinstance(found, str) else found
+    return ()
 
 
-def _of_a_right_motion(evidence: Evidence, failed: Sequence[Verdict]) -> str:
+def _of_a_right_motion(evidence: Evidence, failed: Sequence[Verdict]) -> tuple[str, ...]:
     """The states follow from each other as they should: something else is wrong."""
     kinds = {verdict.check for verdict in failed}
     drift = float(np.abs(np.linalg.norm(evidence.told.quaternion, axis=-1) - 1).max())
     if drift > 1e-12:
-        return f"quaternion is not normalised: its length is off by up to {drift:.2g}"
+        return (f"quaternion is not normalised: its length is off by up to {drift:.2g}",)
     if "acceleration" in kinds:
-        said = _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
-        what = f"as if {said}" if said else "in no way that is known here"
-        return f"accelerations alone are wrong, {what}; the motion follows the scene's equations"
+        causes = _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
+        return tuple(f"the motion is right, and accelerations alone are as if {cause}" for cause in causes)
     if "determinism" in kinds:
-        return "not deterministic: the same cell gives other bits when it is run again"
+        return ("not deterministic: the same cell gives other bits when it is run again",)
     if kinds == {"setup"}:
         names = listed(dict.fromkeys(v.observable for v in failed))
-        return f"only what is read back of {names} is wrong; the motion is as asked"
-    return (
-        f"{NOT_FOUND}: every sample follows from the one before, by the scene's equations and the scheme, "
-        "to rounding; look at the check"
-    )
+        return (f"only what is read back of {names} is wrong: the motion is as asked",)
+    return ()
 
 
 def _telling(evidence: Evidence) -> str:
@@ -99,7 +88,7 @@ def _telling(evidence: Evidence) -> str:
         cut = evidence.cut(undo)
         if cut is None or len(cut.q) < 3 or inconsistency(cut, undo(evidence.told)) > NOTHING:
             continue
-        if size(evidence.of_intervals(cut)) <= NOTHING:
+        if evidence.followed(cut):
             return words
     return _between_steps(evidence)
 
@@ -133,10 +122,10 @@ def _stepping(evidence: Evidence) -> str:
     if cut is None or evidence.scheme == "exact" or size(evidence.residual) <= NOTHING:
         return ""
     for stretch, steps, words in _steps(cut.stride):
-        if size(cut.residual(evidence.model, evidence.scheme, stretch=stretch, steps=steps)) <= NOTHING:
+        if evidence.followed(cut, stretch=stretch, steps=steps):
             return words
     for scheme, words in _SCHEMES.items():
-        if scheme != evidence.scheme and size(cut.residual(evidence.model, scheme)) <= NOTHING:
+        if scheme != evidence.scheme and evidence.followed(cut, scheme):
             return words.format(declared=evidence.scheme)
     return ""
 
@@ -166,36 +155,32 @@ def _steps(stride: int) -> list[tuple[float, int, str]]:
     return found
 
 
-def _equations(evidence: Evidence) -> str:
-    """What is wrong in the equations of motion, by the accelerations logged and by the motion."""
-    at_states, before = evidence.accelerations, 0.0
-    if at_states is not None:
-        before = size(evidence.fit_to_accelerations(evidence.plain))
-    if before > NOTHING:
-        said = _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
-        if said:
-            return said
-    return _fitted(evidence, evidence.fit_to_motion, evidence.model) if evidence.intervals else ""
+def _at_states(evidence: Evidence) -> tuple[str, ...]:
+    """What is wrong in the equations of motion, by the accelerations logged."""
+    return _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
 
 
-def _fitted(evidence: Evidence, residual: Residual, model: Model) -> str:
-    """The mistake that explains a residual, or those that do so equally well; empty if none does."""
+def _in_motion(evidence: Evidence) -> tuple[str, ...]:
+    """What is wrong in the equations of motion, by the motion."""
+    return _fitted(evidence, evidence.fit_to_motion, evidence.model)
+
+
+def _fitted(evidence: Evidence, residual: Residual, model: Model) -> tuple[str, ...]:
+    """The mistakes that explain a residual equally well, the likeliest first; empty if none does."""
     before = size(residual(model))
     if before <= NOTHING:
-        return ""
-    plain = [
+        return ()
+    simple = [
         Explanation(words, size(left), words)
         for words, other in alternatives(model)
         if (left := _left(residual, other)) is not None
     ]
-    every = sorted([*plain, *fitted(model, residual, list(suspects(model)))], key=lambda e: e.left)
+    every = sorted([*simple, *fitted(model, residual, list(suspects(model)))], key=lambda e: e.left)
     if not every or not evidence.explained(every[0].left, before):
-        return ""
+        return ()
     equal = [e for e in every if e.left <= max(NOTHING, 3 * every[0].left)]
-    # Plain mistakes first, then as suspects are listed: what is likely before what is special.
     ordered = sorted(equal, key=lambda e: e.place)
-    words = list({e.part: e.sentence for e in reversed(ordered)}.values())[::-1]
-    return words[0] if len(words) == 1 else f"{_either(words)}, which these data cannot tell apart"
+    return tuple({e.part: e.sentence for e in reversed(ordered)}.values())[::-1]
 
 
 def _left(residual: Residual, model: Model) -> Array | None:
@@ -205,14 +190,12 @@ def _left(residual: Residual, model: Model) -> Array | None:
         return None
 
 
-def _either(words: Sequence[str]) -> str:
-    shown = list(words[:3])
-    return "either " + " or ".join(shown) + (f" or {len(words) - 3} others" if len(words) > 3 else "")
-
-
-def _nothing(evidence: Evidence, failed: Sequence[Verdict]) -> str:
+def _nothing(cells: Sequence[Cell], failed: Sequence[Verdict]) -> str:
+    evidence = Evidence.of(cells)
     orders = [v.message for v in failed if v.check == "order" and v.measured is not None]
-    if evidence.intervals is None:
+    if evidence.right:
+        ruled = "every sample follows from the one before, by equations and scheme, to rounding"
+    elif evidence.intervals is None:
         ruled = "no equations of motion of ours know this scene"
     else:
         ruled = "no one wrong parameter, telling of the state, step or scheme explains the motion"

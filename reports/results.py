@@ -15,7 +15,8 @@ from ..scenarios.observables import Observable
 from ..scenarios.scene import Scene
 from .cell import Cell
 from .cheapest import cheapest
-from .verdict import Status, Verdict
+from .common_causes import Localisation, grouped
+from .verdict import Ladder, Status, Verdict
 
 SCHEMA = "poinsot.results/1"
 #: From the gravest to the best: a cell is as good as its worst verdict.
@@ -75,11 +76,14 @@ def results(
     environment: Mapping[str, Any],
     notes: Sequence[str],
     stale: Sequence[str] = (),
+    localised: Sequence[Localisation] = (),
 ) -> dict[str, Any]:
     """Everything about a run as a dictionary of plain values, stable in its order.
 
-    ``stale`` are sentences on recorded deviations that match no check of a whole run.
+    ``stale`` are sentences on recorded deviations that match no check of a whole run, ``localised`` what
+    most likely is wrong where checks fail.
     """
+    likely = {one.ladder: one.sentence for one in localised}
     by_cell: dict[Key, list[Verdict]] = defaultdict(list)
     for verdict in verdicts:
         by_cell[(verdict.scene, verdict.engine, verdict.scheme, verdict.dt)].append(verdict)
@@ -88,7 +92,8 @@ def results(
         "schema": SCHEMA,
         "environment": dict(environment),
         "scenes": {name: _described(scenes[name]) for name in names},
-        "cells": [_cell(record, by_cell[record.key]) for record in records],
+        "cells": [_cell(record, by_cell[record.key], likely) for record in records],
+        "likely_causes": grouped(localised),
         "work_precision": [dict(row) for row in work_precision],
         "cheapest": cheapest(work_precision),
         "notes": list(notes),
@@ -98,7 +103,7 @@ def results(
 
 def cells(records: Iterable[CellRecord]) -> list[dict[str, Any]]:
     """The cells of results.json before anything was judged."""
-    return [_cell(record, ()) for record in records]
+    return [_cell(record, (), {}) for record in records]
 
 
 def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -195,8 +200,9 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
     }
 
 
-def _cell(record: CellRecord, verdicts: Sequence[Verdict]) -> dict[str, Any]:
+def _cell(record: CellRecord, verdicts: Sequence[Verdict], likely: Mapping[Ladder, str]) -> dict[str, Any]:
     status = record.status or worst(verdict.status for verdict in verdicts)
+    ladder = (record.scene, record.engine, record.engine_version, record.scheme)
     return {
         "scene": record.scene,
         "engine": record.engine,
@@ -209,6 +215,7 @@ def _cell(record: CellRecord, verdicts: Sequence[Verdict]) -> dict[str, Any]:
         "status": status.value,
         "log": record.log,
         "message": record.message,
+        "likely_cause": likely.get(ladder, "") if status is Status.FAIL else "",
         "settings": dict(record.settings),
         "log_bytes": record.log_bytes,
         "memory_bytes": record.memory,

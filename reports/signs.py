@@ -1,4 +1,4 @@
-"""Signs in a log that need no equations but tell by themselves: stuck, late, reset, clamped, rounded, copied."""
+"""Signs that a log bears by itself, without a fit: stuck, late, reset, clamped, rounded, copied."""
 
 from collections.abc import Callable, Sequence
 
@@ -106,12 +106,13 @@ def _jump(evidence: Evidence) -> str:
         return f"state was reset to the start between t = {t:g} s and {evidence.told.t[at + 1]:g} s"
     if len(bad) == 2 and bad[1] == at + 1 and np.isfinite(start).all():
         return f"the sample at t = {evidence.told.t[at + 1]:g} s is wrong, and no other"
-    return f"state jumps between t = {t:g} s and {evidence.told.t[at + 1]:g} s, and moves rightly before and after"
+    return f"state jumps between t = {t:g} s and {evidence.told.t[at + 1]:g} s, and is right before and after"
 
 
 def _forward(evidence: Evidence, steps: int) -> tuple[Array, Array]:
     cut = evidence.intervals
-    assert cut is not None
+    if cut is None:
+        return np.empty(0), np.empty(0)
     q, v = cut.advanced(evidence.model, evidence.scheme, np.array([0]), steps=steps)
     return q[0], v[0]
 
@@ -126,12 +127,7 @@ def _clamped(evidence: Evidence) -> str:
                 top = float(np.abs(mine[1:, k]).max())
                 at = np.abs(np.abs(mine[1:, k]) - top) <= 1e-9 * top
                 beyond = np.abs(its[1:, k]) > top * 1.001
-                if (
-                    top
-                    and at.sum() >= PLATEAU
-                    and (at & beyond).sum() >= PLATEAU
-                    and beyond[~at].sum() < at.sum()
-                ):
+                if top and (at & beyond).sum() >= PLATEAU and beyond[~at].sum() < at.sum():
                     return f"{CHANNELS[name]} is clamped at {top:.6g} {unit}".rstrip()
     return ""
 
@@ -148,7 +144,7 @@ def _copied(evidence: Evidence) -> str:
 
 
 def _noisy(evidence: Evidence) -> str:
-    """Whether the exact motion is told with noise: no error beyond it at any step, different at each sample."""
+    """Whether the exact motion is told with noise: no error beside it, and another one at each sample."""
     states = [o for o in evidence.scene.observables if o.kind == "state"]
     coarse = evidence.cells[0]
     sizes = []
@@ -156,20 +152,19 @@ def _noisy(evidence: Evidence) -> str:
         own = own_error(coarse, observable)
         apart = observable.difference(coarse.scene, coarse.trajectory, coarse.truth)[1:]
         level = float(np.sqrt(np.mean(apart**2)))
-        if own is None or level > 0.05 * own or not _white(apart, coarse.floor(observable)):
+        if np.abs(apart).max() <= coarse.floor(observable):
+            continue
+        if own is None or level > 0.05 * own or not _white(apart):
             return ""
-        if level > coarse.floor(observable):
-            sizes.append(f"{level:.2g} {observable.unit} in {observable.name}")
+        sizes.append(f"{level:.1g} {observable.unit} in {observable.name}")
     return f"answers are the exact motion itself with noise of {', '.join(sizes)}" if sizes else ""
 
 
-def _white(apart: Array, floor: float) -> bool:
+def _white(apart: Array) -> bool:
     """Whether successive differences (n, k) know nothing of each other."""
     centred = apart - apart.mean(axis=0)
     power = float(np.sum(centred**2))
-    if np.abs(apart).max() <= floor:
-        return True
-    return abs(float(np.sum(centred[1:] * centred[:-1]))) < 5 / np.sqrt(apart.size) * power
+    return bool(abs(float(np.sum(centred[1:] * centred[:-1]))) < 5 / np.sqrt(apart.size) * power)
 
 
 def _interpolated(evidence: Evidence) -> str:
@@ -184,7 +179,7 @@ def _interpolated(evidence: Evidence) -> str:
                 continue
             bend, bent = (np.abs(np.diff(x, order, axis=0)).max(axis=1) for x in (array, true))
             flat = bend < 64 * EPSILON * np.abs(array).max()
-            if flat.mean() > 0.3 and not flat.all() and (bent > 1e3 * bend.min()).all():
+            if flat.mean() > 0.3 and not flat.all() and bent.min() > 1e4 * EPSILON * np.abs(array).max():
                 knots = 1 + round(len(flat) / max(1, int(np.sum(~flat)) / (order - 1)))
                 return f"{CHANNELS[name]} is interpolated between coarser steps, of about {knots} samples"
     return ""
@@ -196,7 +191,9 @@ def _single(evidence: Evidence) -> str:
         values = getattr(evidence.told, name)[1:].ravel()
         # What has few digits anyway, as 0 and whole numbers, tells nothing.
         values = values[values.astype(np.float16) != values]
-        if len(values) > 20 and np.mean(values.astype(np.float32) == values) > 0.95:
+        rounded = values.astype(np.float32)
+        # Exact when it was rounded, it may have been turned into other axes and back since.
+        if len(values) > 20 and np.mean(np.abs(rounded - values) < 1e-3 * np.spacing(np.abs(rounded))) > 0.95:
             return f"{words} is kept in single precision"
     return ""
 

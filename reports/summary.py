@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 from pathlib import Path
 
+from .common_causes import spoken
 from .digest import Digest, Group, Record
 from .findings import findings
 from .verdict import Status
@@ -20,8 +21,8 @@ def render(results: Record, out: Path) -> None:
     Raises ``InputError`` if ``results`` has another schema.
     """
     digest = Digest(results)
-    parts = [_head(digest), _matrix(digest), _not_passes(digest), _environment(digest)]
-    out.write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+    parts = [_head(digest), _likely(digest), _matrix(digest), _not_passes(digest), _environment(digest)]
+    out.write_text("\n\n".join(filter(None, parts)) + "\n", encoding="utf-8")
 
 
 def _plain(text: object) -> str:
@@ -33,6 +34,14 @@ def _head(digest: Digest) -> str:
     counts = [f"{GLYPHS[status]} {n} {status.value}" for status, n in reversed(digest.counts.items())]
     size = f"{count(len(digest.scenes), 'scene')}, {count(len(digest.columns), 'engine scheme')}"
     return f"# Poinsot\n\n**{_plain(digest.headline)}**\n\n{size}. Cells: {', '.join(counts) or 'none'}."
+
+
+def _likely(digest: Digest) -> str:
+    """What most likely is wrong, where checks fail."""
+    if not digest.likely_causes:
+        return ""
+    lines = [f"- {_plain(spoken(cause))}" for cause in digest.likely_causes]
+    return "\n".join(["## What most likely is wrong, estimated from the logs", "", *lines])
 
 
 def _matrix(digest: Digest) -> str:

@@ -27,14 +27,14 @@ def changed(link: Link, **parts: Any) -> Link:
 class Model:
     """Equations of motion that a run may have followed: the scene's, or with something else in them.
 
-    ``extra(q, v)`` is a further force (n, nv) along the velocities.
+    ``added(q, v)`` is a further force (n, nv) along the velocities.
     """
 
     scene: Scene
     links: tuple[Link, ...]
     gravity: Array
     forces: tuple[Force, ...]
-    extra: Callable[[Array, Array], Array] | None = None
+    added: Callable[[Array, Array], Array] | None = None
 
     @classmethod
     def of(cls, scene: Scene) -> "Model":
@@ -58,23 +58,24 @@ class Model:
 
     def accelerate(self, q: Array, v: Array) -> Array:
         """v̇ (n, nv) at ``q`` (n, nq) and ``v`` (n, nv)."""
-        more = None if self.extra is None else self.extra(q, v)
-        return equations_of_motion.accelerations(self.links, q, v, self.gravity, more, self.pushed(q, v))
+        more, pushed = self._more(q, v), self.pushed(q, v)
+        return equations_of_motion.accelerations(self.links, q, v, self.gravity, more, pushed)
 
     def left_over(self, q: Array, v: Array, a: Array) -> Array:
         """Force (n, nv) that is missing for v̇ to be ``a``."""
-        more = None if self.extra is None else self.extra(q, v)
-        return equations_of_motion.required_forces(self.links, q, v, a, self.gravity, more, self.pushed(q, v))
+        more, pushed = self._more(q, v), self.pushed(q, v)
+        return equations_of_motion.required_forces(self.links, q, v, a, self.gravity, more, pushed)
 
     def linearised(self, q: Array, v: Array) -> tuple[Array, Array]:
         """Mass matrix and −∂f/∂v (n, nv, nv), of all forces but those from outside."""
-        columns = []
-        for direction in np.eye(v.shape[1]):
-            # Forces are of second degree in the velocities: a central difference of any width is exact.
-            there, back = (self._inner(q, v + side * direction) for side in (0.5, -0.5))
-            columns.append(there - back)
-        return equations_of_motion.mass_matrix(self.links, q), np.stack(columns, axis=-1)
+        # Forces are of second degree in the velocities: a central difference of any width is exact.
+        widths = np.eye(v.shape[1])[:, None, :] / 2
+        every = np.broadcast_to(q, (len(widths), *q.shape))
+        columns = self._inner(every, v + widths) - self._inner(every, v - widths)
+        return equations_of_motion.mass_matrix(self.links, q), np.moveaxis(columns, 0, -1)
 
     def _inner(self, q: Array, v: Array) -> Array:
-        more = None if self.extra is None else self.extra(q, v)
-        return equations_of_motion.required_forces(self.links, q, v, 0 * v, self.gravity, more)
+        return equations_of_motion.required_forces(self.links, q, v, 0 * v, self.gravity, self._more(q, v))
+
+    def _more(self, q: Array, v: Array) -> Array | None:
+        return None if self.added is None else self.added(q, v)

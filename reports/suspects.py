@@ -27,13 +27,13 @@ class Suspect:
 
 
 def suspects(model: Model) -> Iterator[Suspect]:
-    """Everything of one number that can be wrong with a scene's equations."""
+    """Everything of one number that can be wrong with a scene's equations, the likelier first."""
     if np.any(model.gravity):
         yield from _gravity(model)
+    yield from _terms(model)
+    yield from _joints(model)
     for body in range(len(model.links)):
         yield from _body(model, body)
-    yield from _joints(model)
-    yield from _terms(model)
     for place in range(len(model.forces)):
         yield from _force(model, place)
     if len(model.links) > 1:
@@ -154,15 +154,15 @@ def _together(model: Model) -> Iterator[Suspect]:
         result = np.zeros_like(v)
         for _, joint, at_q, at_v in m.scene.slices():
             if joint.kind in ("hinge", "slide"):
-                result[:, at_v] = joint.stiffness * q[:, at_q]
+                result[..., at_v] = joint.stiffness * q[..., at_q]
         return result
 
-    yield Suspect(masses, lambda x: f"masses of all bodies are {share(x)}", "all masses")
-    yield Suspect(tensors, lambda x: f"inertias of all bodies are {share(x)}", "all inertias")
     if sum(bool(joint.stiffness) for joint in model.scene.joints) > 1:
         yield Suspect(
             _added(springs), lambda x: f"spring stiffness of all joints is {share(x)}", "all springs"
         )
+    yield Suspect(masses, lambda x: f"masses of all bodies are {share(x)}", "all masses")
+    yield Suspect(tensors, lambda x: f"inertias of all bodies are {share(x)}", "all inertias")
 
 
 def _joints(model: Model) -> Iterator[Suspect]:
@@ -173,31 +173,31 @@ def _joints(model: Model) -> Iterator[Suspect]:
         k = joint.stiffness
         if k:
             yield Suspect(
-                _forced(v, lambda at, going, q=q, k=k: -k * at[:, q]),  # type: ignore[misc]
+                _forced(v, lambda at, going, q=q, k=k: -k * at[..., q]),  # type: ignore[misc]
                 lambda x, name=name: f"spring stiffness of joint {name!r} is {share(x)}",  # type: ignore[misc]
             )
             yield Suspect(
-                _forced(v, lambda at, going, k=k: k + 0 * at[:, 0]),  # type: ignore[misc]
+                _forced(v, lambda at, going, k=k: k + 0 * at[..., 0]),  # type: ignore[misc]
                 lambda x, name=name: f"rest position of the spring of joint {name!r} is off by {x:.3g}",  # type: ignore[misc]
             )
         if joint.damping:
             yield Suspect(
-                _forced(v, lambda at, going, v=v, c=joint.damping: -c * going[:, v]),  # type: ignore[misc]
+                _forced(v, lambda at, going, v=v, c=joint.damping: -c * going[..., v]),  # type: ignore[misc]
                 lambda x, name=name: f"damping of joint {name!r} is {share(x)}",  # type: ignore[misc]
             )
         else:
             yield Suspect(
-                _forced(v, lambda at, going, v=v: -going[:, v]),  # type: ignore[misc]
+                _forced(v, lambda at, going, v=v: -going[..., v]),  # type: ignore[misc]
                 lambda x, name=name, u=unit: (
                     f"joint {name!r} is damped by {x:.3g} {u} s, with none asked for"
                 ),  # type: ignore[misc]
             )
         yield Suspect(
-            _forced(v, lambda at, going, v=v: -np.sign(going[:, v])),  # type: ignore[misc]
+            _forced(v, lambda at, going, v=v: -np.sign(going[..., v])),  # type: ignore[misc]
             lambda x, name=name, u=unit: f"joint {name!r} has a dry friction of {x:.3g} {u}",  # type: ignore[misc]
         )
         yield Suspect(
-            _forced(v, lambda at, going: 1 + 0 * at[:, 0]),
+            _forced(v, lambda at, going: 1 + 0 * at[..., 0]),
             lambda x, name=name, u=unit: f"a steady {x:.3g} {u} acts on joint {name!r}, as of a motor",  # type: ignore[misc]
         )
         if np.any(model.gravity):
@@ -215,7 +215,7 @@ def _terms(model: Model) -> Iterator[Suspect]:
     for k, name in enumerate(names if len(names) <= 12 else []):
 
         def along(m: Model, q: Array, v: Array, k: int = k) -> Array:
-            return _bias(m, q, v) * np.eye(v.shape[1])[k]
+            return np.asarray(_bias(m, q, v) * np.eye(v.shape[-1])[k])
 
         yield Suspect(
             _added(along),
@@ -277,7 +277,7 @@ def _forced(at: int, force: Callable[[Array, Array], Array]) -> Change:
 
     def along(m: Model, q: Array, v: Array) -> Array:
         result = np.zeros_like(v)
-        result[:, at] = -force(q, v)
+        result[..., at] = -force(q, v)
         return result
 
     return _added(along)
@@ -285,7 +285,7 @@ def _forced(at: int, force: Callable[[Array, Array], Array]) -> Change:
 
 def _added(term: Callable[[Model, Array, Array], Array]) -> Change:
     """X times more of a ``term`` that stands on the side of inertia."""
-    return lambda m, x: replace(m, extra=lambda q, v: -x * term(m, q, v))
+    return lambda m, x: replace(m, added=lambda q, v: -x * term(m, q, v))
 
 
 def _bias(m: Model, q: Array, v: Array) -> Array:
@@ -306,17 +306,17 @@ def _linear_weight(model: Model, at_q: int, at_v: int) -> Callable[[Array, Array
     """The weight along a velocity as it would be if it grew with the coordinate, less what it is."""
 
     def weight(q: Array) -> Array:
-        still = np.zeros((len(q), len(model.scene.v0)))
+        still = np.zeros((*q.shape[:-1], len(model.scene.v0)))
         acting = equations_of_motion.required_forces(model.links, q, still, still, model.gravity)
-        return -acting[:, at_v]
+        return np.asarray(-acting[..., at_v])
 
     def difference(q: Array, v: Array) -> Array:
         near, width = np.array(q), 1e-5
-        near[:, at_q] = width
+        near[..., at_q] = width
         far = np.array(near)
-        far[:, at_q] = -width
+        far[..., at_q] = -width
         slope = (weight(near) - weight(far)) / (2 * width)
-        return slope * q[:, at_q] - weight(q)
+        return np.asarray(slope * q[..., at_q] - weight(q))
 
     return difference
 
