@@ -7,8 +7,6 @@ from typing import Any
 
 from .verdict import Ladder
 
-#: Names of bodies and joints differ from scene to scene, and what is wrong with them may be the same.
-_NAME = re.compile(r"'[^']*'")
 #: Times and sizes of one scene, after which nothing of what is wrong is said.
 _AT = re.compile(r" (after|between) t = .*| off by .*")
 
@@ -85,7 +83,5 @@ def _part(engine: str, version: str, key: str, mine: Sequence[Localisation]) -> 
 
 
 def _general(cause: str) -> str:
-    """A cause without what is one scene's own."""
-    return (
-        _AT.sub("", _NAME.sub("", cause)).replace("body ", "a body ").replace("joint  ", "a joint ").strip()
-    )
+    """A cause without what is one scene's own: names, times and sizes."""
+    return _AT.sub("", re.sub(r"\b(body|joint) '[^']*'", r"a \1", cause)).strip()

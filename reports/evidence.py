@@ -14,7 +14,7 @@ from ..scenarios.trajectory import Trajectory
 from .acceleration import expected
 from .cell import EPSILON, Cell
 from .fitting import size
-from .intervals import Intervals
+from .intervals import Intervals, centred
 from .order import extrapolated
 from .supposed import Model
 
@@ -24,6 +24,9 @@ NOTHING = 30.0
 FITTED = 60
 #: Intervals that are looked at before all of them are.
 FEW = 5
+#: Schemes whose steps are known here, by their twin names; the first to be followed is the one meant.
+IMPLICIT = "implicit gyroscopic"
+SCHEMES = ("semi-implicit Euler", "RKMK4", IMPLICIT, "RK4 of body velocities", "explicit Euler")
 #: The implicit scheme takes ∂f/∂v of every velocity at each step: past this many it takes minutes.
 MANY = 20
 
@@ -56,12 +59,18 @@ class Evidence:
         return self.cell.trajectory
 
     @property
+    def declared(self) -> str:
+        """The twin name of the scheme that the engine says it is."""
+        return self.cell.provenance.twin
+
+    @cached_property
     def scheme(self) -> str:
-        """The scheme by its twin name, or "exact" if that is not one that is known here."""
-        twin = self.cells[0].provenance.twin
-        if twin == "implicit gyroscopic" and len(self.scene.v0) <= MANY:
-            return twin
-        return twin if twin in tree_schemes.SCHEMES else "exact"
+        """That scheme if its steps are known here, else one that the steps told follow, else "exact"."""
+        known = [name for name in SCHEMES if name != IMPLICIT or len(self.scene.v0) <= MANY]
+        if self.declared in known:
+            return self.declared
+        cut = Intervals.of(self.scene, self.told)
+        return next((name for name in known if cut is not None and self.followed(cut, name)), "exact")
 
     @cached_property
     def intervals(self) -> Intervals | None:
@@ -79,7 +88,7 @@ class Evidence:
     @cached_property
     def model(self) -> Model:
         """The scene's own equations, as intervals take them."""
-        return Model.of(self.intervals.scene if self.intervals else self.scene)
+        return Model.of(centred(self.scene))
 
     @cached_property
     def residual(self) -> Array:

@@ -16,7 +16,7 @@ from ..reference.errors import InputError
 from ..reference.tree_schemes import moved
 from .cell import Cell
 from .common_causes import Localisation
-from .evidence import NOTHING, Evidence, inconsistency
+from .evidence import IMPLICIT, MANY, NOTHING, Evidence, inconsistency
 from .fitting import Explanation, Residual, fitted, size
 from .intervals import Intervals
 from .signs import plain, weaker
@@ -77,10 +77,23 @@ def _of_a_right_motion(evidence: Evidence, failed: Sequence[Verdict]) -> tuple[s
         return tuple(f"the motion is right, and accelerations alone are as if {cause}" for cause in causes)
     if "determinism" in kinds:
         return ("not deterministic: the same cell gives other bits when it is run again",)
+    if kinds == {"stability"} and evidence.scheme == evidence.declared:
+        return _past_the_limit(evidence)
     if kinds == {"setup"}:
         names = listed(dict.fromkeys(v.observable for v in failed))
         return (f"only what is read back of {names} is wrong: the motion is as asked",)
+    if evidence.scheme != evidence.declared:
+        return (_SCHEMES[evidence.scheme].format(declared=evidence.declared),)
     return ()
+
+
+def _past_the_limit(evidence: Evidence) -> tuple[str, ...]:
+    """The motion is right at the steps logged: what can still shift the largest stable one."""
+    found, theory = evidence.cell.provenance.stable_step, evidence.scene.stable_step
+    limit = theory(evidence.scene, evidence.cell.provenance.twin) if theory else None
+    if limit is None or not found or found[0] <= limit:
+        return ()
+    return ("velocities are clamped, or the state put back, once steps are past the stable one",)
 
 
 def _telling(evidence: Evidence) -> str:
@@ -125,8 +138,9 @@ def _stepping(evidence: Evidence) -> str:
         if evidence.followed(cut, stretch=stretch, steps=steps):
             return words
     for scheme, words in _SCHEMES.items():
-        if scheme != evidence.scheme and evidence.followed(cut, scheme):
-            return words.format(declared=evidence.scheme)
+        affordable = scheme != IMPLICIT or len(evidence.scene.v0) <= MANY
+        if scheme != evidence.scheme and affordable and evidence.followed(cut, scheme):
+            return words.format(declared=evidence.declared)
     return ""
 
 

@@ -83,6 +83,7 @@ WRONG = (
                 r"the engine has \[\[0.01001, .*, the scene asks for \(\(0.01, ",
             ),
         ), 1e-3,
+        located=r"^moment I1 of body 'top' is 0\.1 % high$",
     ),
     Wrong(
         "moment I1 is 0.1 % high", "moment", LyingLargeMoment,
@@ -96,6 +97,7 @@ WRONG = (
                 "truth orientation, limit", "limit at dt = 0 from the truth", near={"truth omega"},
             ),
         ), 1e-3,
+        located=r"^moment I1 of body 'top' is 0\.1 % high$",
     ),
     Wrong(
         "inertia axes are permuted", "inertia axes", Permuted,
@@ -105,17 +107,21 @@ WRONG = (
                 beside=False,
             ),
         ),
+        located=r"^inertia axes of body 'satellite' are permuted$",
     ),
     Wrong(
         "product I12 is 1e-6 of I1", "product", Skewed,
         (Sight(TUMBLING, SE, {EQUATIONS, "truth orientation, limit"}, near=None, beside=False),), 1e-6,
+        located=r"^product of inertia I12 of body 'satellite' is off by 0\.00012 kg m²$",
     ),
     Wrong(
         "centre of mass is 1e-6 m beside the axis", "centre", OffCentre,
         (Sight(TOP, SE, {EQUATIONS, "truth orientation, limit"}, near=None, beside=False),), 1e-6,
+        located=r"^centre of mass of body 'top' is displaced by 1e-06 m along its axis 1$",
     ),
     Wrong(
         "first mass is 1e-4 high", "mass", Heavy,
         (Sight(CHAIN, SE, {EQUATIONS, "truth position, scheme's own"}, near=None, beside=False),), 1e-4,
+        located=r"^mass of body 'left' is 0\.01 % high$",
     ),
 )  # fmt: skip

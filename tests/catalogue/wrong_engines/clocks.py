@@ -99,6 +99,7 @@ WRONG = (
                 "order orientation", "fitted order -?0.0.* declared 1",
             ),
         ),
+        located=r"^state is one sample late$",
     ),
     Wrong(
         "state is one step late", "time", OneStepLate,
@@ -106,10 +107,12 @@ WRONG = (
             Sight(TOP, RK, TURNING | RATES | TWIN, "order omega", "fitted order 1.00.* declared 4"),
             Sight(TOP, SE, TWIN, "twin state", "from its twin .* in orientation"),
         ),
+        located=r"^state is one step late",
     ),
     Wrong(
         "velocity is half a step late", "time", HalfAStepLate,
         (Sight(CHAIN, SE, {"truth velocity, scheme's own"}, near=None, beside=False),),
+        located=r"^velocities are told half a step late$",
     ),
     Wrong(
         "step is twice as large, and read back so", "time", TwiceTheStep,
@@ -119,6 +122,7 @@ WRONG = (
                 "setup dt", "dt: the engine has 0.004, the scene asks for 0.002",
             ),
         ),
+        located=r"^step is twice the stated one",
     ),
     Wrong(
         "one step of 2 dt is taken for every two", "time", HalfTheSteps,
@@ -129,5 +133,6 @@ WRONG = (
                 near=state("position", "velocity") - {"truth position", "truth velocity"},
             ),
         ),
+        located=r"^step is twice the stated one, and one is taken for 2$",
     ),
 )  # fmt: skip

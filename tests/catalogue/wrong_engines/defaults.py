@@ -76,6 +76,7 @@ WRONG = (
                 "setup angular_damping", "has 0.04.*, inferred from a probe run, the scene asks for 0.0",
             ),
         ), 0.04,
+        located=r"^angular damping ≈ 0\.04 /s$",
     ),
     Wrong(
         "angular damping is 0.04 /s", "damping", LyingDamped,
@@ -85,6 +86,7 @@ WRONG = (
                 "invariant energy", "change from the exact value at the start",
             ),
         ), 0.04,
+        located=r"^angular damping ≈ 0\.04 /s$",
     ),
     Wrong(
         "velocities are clamped at 100, and probed so", "clamp", Clamped,
@@ -95,6 +97,7 @@ WRONG = (
                 "setup velocity_limit", "has 100.0, inferred from a probe run, the scene asks for inf",
             ),
         ),
+        located=r"^angular velocity is clamped at 100 rad/s$",
     ),
     Wrong(
         "velocities are clamped at 100", "clamp", LyingClamped,
@@ -104,6 +107,7 @@ WRONG = (
                 "invariant p_gamma", "change from the exact value at the start",
             ),
         ),
+        located=r"^angular velocity is clamped at 100 rad/s$",
     ),
     Wrong(
         "angular damping is 1e-4 /s in the run alone", "damping", damped(1e-4),
@@ -112,5 +116,6 @@ WRONG = (
                 TUMBLING, SE, {"truth orientation, limit", "truth omega, limit"}, near=None, beside=False
             ),
         ), 1e-4, of_size=damped,
+        located=r"^angular damping ≈ 0\.0001 /s$",
     ),
 )  # fmt: skip

@@ -64,6 +64,7 @@ WRONG = (
                 r"gravity: the engine has \[0.0, 0.0, -9.8\], the scene asks for \(0.0, 0.0, -9.81\)",
             ),
         ), 1e-3,
+        located=r"^gravity is 9\.8 m/s², not 9\.81$",
     ),
     Wrong(
         "gravity is 9.80", "gravity", LyingWeakGravity,
@@ -78,22 +79,27 @@ WRONG = (
                 near=ENERGY | {"order orientation", "order omega"},
             ),
         ), 1e-3,
+        located=r"^gravity is 9\.8 m/s², not 9\.81$",
     ),
     Wrong(
         "gravity is 9.80665", "gravity", StandardGravity,
         (Sight(TOP, SE, {EQUATIONS, "truth orientation, limit"}, near=None, beside=False),), 3.4e-4,
+        located=r"^gravity is 9\.80665 m/s²",
     ),
     Wrong(
         "gravity points up", "gravity", times(-1),
         (Sight(TOP, SE, {EQUATIONS, "truth omega", "truth precession"}, near=None, beside=False),),
+        located=r"^gravity has the wrong sign$",
     ),
     Wrong(
         "gravity is 1e-6 high", "gravity", more(1e-6),
         (Sight(TOP, SE, {EQUATIONS, "truth orientation, limit"}, near=None, beside=False),), 1e-6,
         of_size=more,
+        located=r"^gravity is 9\.81000981 m/s²",
     ),
     Wrong(
         "gravity is 1e-9 high", "gravity", OffByABillionth,
         (Sight(TOP, SE, LIMITS | TWIN | {EQUATIONS}, "twin state", "from its twin .* in orientation"),), 1e-9,
+        located=r"^gravity is 9\.81000001 m/s²",
     ),
 )  # fmt: skip

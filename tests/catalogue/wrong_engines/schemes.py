@@ -55,6 +55,7 @@ WRONG = (
                 "order orientation", "fitted order 2.00. ± 0.00. over 5 steps .*, declared 4",
             ),
         ),
+        located=r"^orientation is integrated to order 2 only",
     ),
     Wrong(
         "Euler is called RK4", "scheme", EulerCalledRK4,
@@ -64,9 +65,11 @@ WRONG = (
                 "order orientation", "fitted order 1.01. ± 0.00. over 5 steps .*, declared 4",
             ),
         ),
+        located=r"^steps are those of semi-implicit Euler, not of RKMK4",
     ),
     Wrong(
         "velocities are kept in 32 bits", "precision", SinglePrecision,
         (Sight(TOP, SE, LIMITS | TWIN, "truth omega, limit", "limit at dt = 0 from the truth"),),
+        located=r"^angular velocity is kept in single precision$",
     ),
 )  # fmt: skip

@@ -41,9 +41,11 @@ WRONG = (
                 near=ENERGY | {"truth velocity"},
             ),
         ), 1e-4, of_size=stiff,
+        located=r"spring stiffness of all joints is 0\.01 % high",
     ),
     Wrong(
         "a pendulum is pulled back by its angle, not the sine", "pendulum", Linearised,
         (Sight(PENDULUM, SE, {"truth orientation", "invariant energy"}, near=None, beside=False),),
+        located=r"is linear in its angle, in place of the sine$",
     ),
 )  # fmt: skip

@@ -78,11 +78,23 @@ WRONG = (
     Wrong(
         "springs are explicit in a scheme called implicit", "scheme", ExplicitSprings,
         _seen(DISCRETE, "by theory at any step"),
+        located=r"^steps are those of semi-implicit Euler, not of discrete",
     ),
-    Wrong("four smaller steps are taken for each", "scheme", SubSteps, _seen(SE, BEYOND)),
-    Wrong("a spring's velocity is clamped at 100", "clamp", ClampedSpring, _seen(SE, BEYOND)),
     Wrong(
-        "explicit Euler is called semi-implicit", "scheme", OldVelocity, _seen(SE, "by theory up to 0.0002 s")
+        "four smaller steps are taken for each", "scheme", SubSteps, _seen(SE, BEYOND),
+        located=r"^step is a part of the stated one, 1/4, and 4 are taken for each$",
     ),
-    Wrong("a tenth of the velocity is lost at each step", "damping", DampedSteps, _seen(SE, "")),
+    Wrong(
+        "a spring's velocity is clamped at 100", "clamp", ClampedSpring, _seen(SE, BEYOND),
+        located=r"clamp",
+    ),
+    Wrong(
+        "explicit Euler is called semi-implicit", "scheme", OldVelocity,
+        _seen(SE, "by theory up to 0.0002 s"),
+        located=r"^steps are those of explicit Euler",
+    ),
+    Wrong(
+        "a tenth of the velocity is lost at each step", "damping", DampedSteps, _seen(SE, ""),
+        located=r"damp",
+    ),
 )  # fmt: skip

@@ -95,6 +95,7 @@ WRONG = (
                 "truth orientation", "distance from the exact motion",
             ),
         ),
+        located=r"^quaternion is scalar-first$",
     ),
     Wrong(
         "quaternion is conjugated", "quaternion", Conjugated,
@@ -104,10 +105,12 @@ WRONG = (
                 "truth orientation", "distance from the exact motion",
             ),
         ),
+        located=r"^quaternion is conjugated$",
     ),
     Wrong(
         "quaternion is never normalised", "quaternion", NeverNormalised,
         (Sight(TUMBLING, SE, {"invariant quaternion norm"}, near=None, beside=False),),
+        located=r"^quaternion is not normalised",
     ),
     Wrong(
         "angular velocity is in world axes", "angular velocity", WorldOmega,
@@ -117,14 +120,17 @@ WRONG = (
                 "twin state", "from its twin .* in omega",
             ),
         ),
+        located=r"^angular velocity is in world axes$",
     ),
     Wrong(
         "position is the frame's, not the centre's", "position", FrameNotCentre,
         (Sight(TOP, SE, RATES | ENERGY | P_ALPHA, "truth nutation", "from the exact rate"),),
+        located=r"^position is that of the frame, not of the centre of mass$",
     ),
     Wrong(
         "position stays where it was", "position", StuckInPlace,
         (Sight(FREE, SE, state("position") | TWIN, "twin state", "from its twin .* in position"),),
+        located=r"^position never changes",
     ),
     Wrong(
         "joint velocities are those of the last sample", "joints", JointsOfLastSample,
@@ -134,6 +140,7 @@ WRONG = (
                 "invariant joint speed residual", "change from the exact value at the start",
             ),
         ),
+        located=r"^joint velocity is told one sample late$",
     ),
     Wrong(
         "attitudes are told of bodies that never turn", "quaternion", Turned,
@@ -143,5 +150,6 @@ WRONG = (
                 "invariant attitude", "change from the exact value at the start",
             ),
         ),
+        located=r"^orientation told of the bodies does not fit their joints",
     ),
 )  # fmt: skip

@@ -46,13 +46,16 @@ WRONG = (
                 "truth Omega_b", "difference from the exact rate",
             ),
         ),
+        located=r"gyroscopic term is missing",
     ),
     Wrong(
         "gyroscopic term is doubled", "gyroscopic term", gyroscopic(2.0),
         (Sight(TUMBLING, SE, _SEEN, near=None, beside=False),),
+        located=r"^gyroscopic term is doubled$",
     ),
     Wrong(
         "gyroscopic term has the wrong sign", "gyroscopic term", gyroscopic(-1.0),
         (Sight(TUMBLING, SE, _SEEN, near=None, beside=False),),
+        located=r"^gyroscopic term is of the wrong sign$",
     ),
 )  # fmt: skip

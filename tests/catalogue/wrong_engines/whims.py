@@ -68,10 +68,12 @@ WRONG = (
     Wrong(
         "last bit differs from run to run", "determinism", Undecided,
         (Sight(TOP, SE, {"determinism state"}, "determinism state", "2 runs gave 2 different motions"),),
+        located=r"^not deterministic",
     ),
     Wrong(
         "motion stops half way", "freeze", Sleepy,
         (Sight(TOP, SE, TURNING | RATES | TWIN, "truth orientation", "distance from the exact motion"),),
+        located=r"^answers do not move after t = 1 s$",
     ),
     Wrong(
         "not finite for a moment, then well again", "not finite", Recovers,
@@ -89,6 +91,7 @@ WRONG = (
                 "order position", "too good to be an integration",
             ),
         ),
+        located=r"^answers are the exact motion itself, not an integration",
     ),
     Wrong(
         "the exact motion with noise", "echo", NoisyEcho,
@@ -98,5 +101,6 @@ WRONG = (
                 beside=False,
             ),
         ),
+        located=r"^answers are the exact motion itself with noise of .* rad/s in omega$",
     ),
 )  # fmt: skip
