@@ -10,7 +10,14 @@ from ..scenarios.scene import Scene
 
 
 class EngineError(PoinsotError):
-    """The engine broke down while it ran: reset itself, warned, or left the finite numbers."""
+    """The engine broke down while it ran: reset itself, warned, or left the finite numbers.
+
+    ``state`` is where everything was found all the same, for who wants to see what it does then.
+    """
+
+    def __init__(self, message: str, state: "State | None" = None) -> None:
+        super().__init__(message)
+        self.state = state
 
 
 @dataclass(frozen=True)
@@ -87,7 +94,10 @@ class Engine(Protocol):
         ...
 
     def state(self) -> State:
-        """Where everything is now. Raises ``EngineError`` if the engine reset itself or warned."""
+        """Where everything is now.
+
+        Raises ``EngineError``, if it can with the state, if the engine reset itself, warned or broke down.
+        """
         ...
 
     def readback(self) -> Setup:

@@ -109,7 +109,6 @@ class MuJoCo:
 
     def state(self) -> State:
         """Where everything is now. Raises ``EngineError`` if MuJoCo warned, reset itself or is not finite."""
-        self._sound()
         model, data, bodies = self._model, self._scratch, self._bodies
         # A step leaves the kinematics of the state before it; a scratch copy leaves the motion alone.
         data.qpos[:], data.qvel[:] = self._data.qpos, self._data.qvel
@@ -119,7 +118,7 @@ class MuJoCo:
         speeds = np.empty((len(bodies), 6))
         for row, body in zip(speeds, bodies, strict=True):
             mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, row, 0)
-        return State(
+        state = State(
             position=data.xipos[bodies],
             quaternion=data.xquat[bodies][:, [1, 2, 3, 0]],
             velocity=speeds[:, 3:],
@@ -127,6 +126,8 @@ class MuJoCo:
             joint_position=data.qpos[self._scalar_q],
             joint_velocity=data.qvel[self._scalar_v],
         )
+        self._sound(state)
+        return state
 
     def readback(self) -> Setup:
         """How MuJoCo is set up, by its own account; nothing has to be probed."""
@@ -192,17 +193,17 @@ class MuJoCo:
             mujoco.mj_forward(self._model, self._scratch)
         option.integrator = chosen
 
-    def _sound(self) -> None:
+    def _sound(self, state: State) -> None:
         data, dt = self._data, self._model.opt.timestep
         run = f"{self._steps} steps of {dt} s"
         if data.warning.number.any():
             kinds = [mujoco.mjtWarning(int(i)).name for i in np.flatnonzero(data.warning.number)]
-            raise EngineError(f"MuJoCo warned within {run}: {', '.join(kinds)}")
+            raise EngineError(f"MuJoCo warned within {run}: {', '.join(kinds)}", state)
         # Adding up dt rounds by far less than half a step; a reset starts the clock again.
         if abs(data.time - self._steps * dt) > dt / 2:
-            raise EngineError(f"MuJoCo reset itself: its clock shows {data.time} s after {run}")
+            raise EngineError(f"MuJoCo reset itself: its clock shows {data.time} s after {run}", state)
         if not (np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all()):
-            raise EngineError(f"MuJoCo left the finite numbers within {run}")
+            raise EngineError(f"MuJoCo left the finite numbers within {run}", state)
 
 
 # Until release 4.0 RK4 averaged the body velocities of its stages: second order in attitude.

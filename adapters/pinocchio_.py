@@ -90,12 +90,14 @@ class Pinocchio:
     def state(self) -> State:
         """Where everything is now. Raises ``EngineError`` if a number is not finite."""
         q, v = self._position, self._velocity
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
-            raise EngineError(f"Pinocchio left the finite numbers within {self._steps} steps of {self._dt} s")
         pin.forwardKinematics(self._model, self._data, q, v)
         bodies = [self._body_state(joint, centre) for joint, centre in self._centres]
         position, quaternion, velocity, omega = (np.array(part) for part in zip(*bodies, strict=True))
-        return State(position, quaternion, velocity, omega, q[self._scalar_q], v[self._scalar_v])
+        state = State(position, quaternion, velocity, omega, q[self._scalar_q], v[self._scalar_v])
+        if not (np.isfinite(q).all() and np.isfinite(v).all()):
+            run = f"{self._steps} steps of {self._dt} s"
+            raise EngineError(f"Pinocchio left the finite numbers within {run}", state)
+        return state
 
     def readback(self) -> Setup:
         """How Pinocchio is set up, by its own account; springs, dampers and dt are our integrators'."""

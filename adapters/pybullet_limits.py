@@ -50,12 +50,13 @@ def refuse_frozen(scene: Scene, responses: Iterable[Array]) -> None:
 def refuse_broken(state: State, turning: Iterable[Array], dt: float) -> None:
     """Raise ``EngineError`` for a state that is not finite, or for an ω (3,) too fast for the step."""
     if not all(np.isfinite(part).all() for part in state):
-        raise EngineError(f"PyBullet left the finite numbers, at a step of {dt:g} s")
+        raise EngineError(f"PyBullet left the finite numbers, at a step of {dt:g} s", state)
     fastest = max((float(np.linalg.norm(omega)) for omega in turning), default=0.0)
     if fastest * dt > LARGEST_TURN:
         raise EngineError(
             f"PyBullet clips turns of more than π/4 in a step: got {fastest:.4g} rad/s "
-            f"at a step of {dt:g} s; take a step below {LARGEST_TURN / fastest:.3g} s"
+            f"at a step of {dt:g} s; take a step below {LARGEST_TURN / fastest:.3g} s",
+            state,
         )
 
 
