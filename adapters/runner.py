@@ -9,7 +9,7 @@ from concurrent.futures import Future, as_completed
 from concurrent.futures import TimeoutError as TimeLimitError
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeVar
 
 from pebble import ProcessExpired, ProcessPool
 
@@ -18,6 +18,9 @@ from ..scenarios.registry import scenes
 from . import log, memory, registry
 from .simulate import simulate
 from .timing import Timing, timed
+
+#: What is asked of a child process.
+Asked = TypeVar("Asked")
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,18 @@ class Request:
     scheme: str
     dt: float
     repeats: int = 1
+
+
+class Failure(str):
+    """Why a piece of work gave no result, in a sentence; ``cause`` tells what kind of end it came to."""
+
+    cause: Literal["time limit", "death", "error"]
+
+    def __new__(cls, text: str, cause: Literal["time limit", "death", "error"]) -> "Failure":
+        """The sentence, with its cause."""
+        made = super().__new__(cls, text)
+        made.cause = cause
+        return made
 
 
 @dataclass(frozen=True)
@@ -84,14 +99,17 @@ def file_name(request: Request) -> str:
 
 def isolated(
     work: Callable[..., Any],
-    requests: Iterable[Request],
+    requests: Iterable[Asked],
     arguments: tuple[Any, ...],
     workers: int,
     time_limit: float,
-) -> Iterator[tuple[Request, Any]]:
-    """Results of ``work(request, *arguments)``, or a sentence for each that failed, as they come."""
+) -> Iterator[tuple[Asked, Any]]:
+    """Results of ``work(request, *arguments)``, or a ``Failure`` for each that has none, as they come.
+
+    Each is worked on in a child process for ``time_limit`` [s] at most; ``work`` must have a name of its own.
+    """
     pool = ProcessPool(max_workers=workers, context=multiprocessing.get_context("spawn"))
-    origin: dict[Future[Any], Request] = {
+    origin: dict[Future[Any], Asked] = {
         pool.schedule(work, (request, *arguments), timeout=time_limit): request for request in requests
     }
     try:
@@ -104,17 +122,17 @@ def isolated(
 
 
 def _result(future: Future[Any], time_limit: float) -> Any:
-    """What a cell came to, or a sentence on how it failed."""
+    """What a piece of work came to, or how it failed."""
     try:
         return future.result()
     except TimeLimitError:
-        return f"took longer than the time limit of {time_limit:g} s and was stopped"
+        return Failure(f"took longer than the time limit of {time_limit:g} s and was stopped", "time limit")
     except ProcessExpired as death:
-        return f"its process died ({_cause(death.exitcode)})"
+        return Failure(f"its process died ({_cause(death.exitcode)})", "death")
     except PoinsotError as error:
-        return str(error)
+        return Failure(str(error), "error")
     except Exception as error:  # an engine may raise anything; it must not end the run
-        return f"{type(error).__name__}: {error}"
+        return Failure(f"{type(error).__name__}: {error}", "error")
 
 
 def _logged(request: Request, folder: Path) -> tuple[str, int | None]:

@@ -3,6 +3,8 @@
 Energy is ours, from the states; what the engine says of itself is not asked.
 """
 
+import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +13,7 @@ from ..scenarios import mechanics
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
 from .engine import Engine, EngineError, Scheme, State
+from .looked import looked
 
 #: Steps of one trial. Just past its limit by a part ε, semi-implicit Euler's energy grows by exp(4√(2ε)) a
 #: step and Runge-Kutta's by exp(14ε), so that at 1e-3 past it the last third is at least 6 times the first;
@@ -59,7 +62,7 @@ def stable_step(machine: Engine, scene: Scene, scheme: Scheme) -> StableStep:
 
 
 def grows(machine: Engine, scene: Scene, scheme: Scheme, dt: float) -> bool:
-    """Whether the energy grows over ``STEPS`` steps of ``dt`` [s], or the engine breaks down on the way.
+    """Whether the energy grows over ``STEPS`` steps of ``dt`` [s], or the engine can tell no state any more.
 
     Raises what ``Engine.build`` raises if the engine does not take the scene.
     """
@@ -68,25 +71,35 @@ def grows(machine: Engine, scene: Scene, scheme: Scheme, dt: float) -> bool:
     while len(energies) <= STEPS:
         try:
             energies += _energies(machine, scene, AT_ONCE)
-        except EngineError:
+        # ValueError and ArithmeticError: Python's own mathematics of what is not finite.
+        except (EngineError, ValueError, ArithmeticError):
             return True
-        if not max(energies[-AT_ONCE:]) <= BEYOND * energies[0]:
+        if beyond(energies):
             return True
-    third = STEPS // 3
-    return max(energies[-third:]) > GROWTH * max(energies[:third])
+    return grown(energies)
+
+
+def beyond(energies: Sequence[float]) -> bool:
+    """Whether an energy is not finite, or so much more than the first that no stable scheme reaches it."""
+    return not max(energies) <= BEYOND * abs(energies[0]) or any(math.isnan(energy) for energy in energies)
+
+
+def grown(energies: Sequence[float]) -> bool:
+    """Whether energies, one a sample, end far above where they began."""
+    third = len(energies) // 3
+    return beyond(energies) or max(energies[-third:]) > GROWTH * max(energies[:third])
 
 
 def _energies(machine: Engine, scene: Scene, steps: int) -> list[float]:
     """Energy [J] after each of so many steps; of where it is now if there are none."""
     states = []
-    for _ in range(max(steps, 1)):
-        if steps:
-            machine.step(1)
-        states.append([np.array(part) for part in machine.state()])
-    parts = (np.array(part) for part in zip(*states, strict=True))
     # A run past its limit leaves the range of doubles, which is what is looked for.
-    with np.errstate(over="ignore", invalid="ignore"):
-        found: list[float] = mechanics.energy(
-            scene, Trajectory(np.zeros(max(steps, 1)), *State(*parts))
-        ).tolist()
+    with np.errstate(all="ignore"):
+        for _ in range(max(steps, 1)):
+            if steps:
+                machine.step(1)
+            states.append(looked(machine)[0])
+        parts = (np.array(part) for part in zip(*states, strict=True))
+        motion = Trajectory(np.zeros(len(states)), *State(*parts))
+        found: list[float] = mechanics.energy(scene, motion).tolist()
     return found

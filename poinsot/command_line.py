@@ -1,4 +1,4 @@
-"""The command line: ``poinsot run | list | report | compare | explain | doctor``."""
+"""The command line: ``poinsot run | stability | list | report | compare | explain | doctor``."""
 
 import gc
 import shlex
@@ -75,10 +75,7 @@ def run(
     from .reports.results import exit_code
     from .scenarios.registry import select
 
-    if workers is not None and workers < 1:
-        raise InputError(f"--workers: got {workers}, expected at least 1")
-    if not time_limit > 0:
-        raise InputError(f"--time-limit: got {time_limit}, expected a number of seconds above 0")
+    _check_limits(workers, time_limit)
     if quick and full:
         raise InputError("--quick, --full: got both, expected one of them or none")
     extent = Extent.QUICK if quick else Extent.FULL if full else Extent.WHOLE if scene else Extent.USUAL
@@ -90,6 +87,53 @@ def run(
     _show(found, folder)
     if update_known:
         _propose(found, folder)
+    return exit_code(found)
+
+
+@app.command
+def stability(
+    *family: str,
+    engine: Names = None,
+    scheme: Names = None,
+    out: Path | None = None,
+    workers: int | None = None,
+    time_limit: float = 60.0,
+) -> int:
+    """Sweep families of scenes to their extremes: stability maps, and the largest stable step of each scheme.
+
+    Parameters
+    ----------
+    family
+        Families of scenes; all of them if none is named.
+    engine
+        An engine's name, `package.module:Class` or `path/to/file.py:Class`; may be repeated.
+        All that are installed if none is named.
+    scheme
+        A scheme's name; may be repeated.
+    out
+        Folder for stability.json and stability.html, new or empty; otherwise a new dated one in
+        poinsot-runs/.
+    workers
+        How many processes simulate at once; as many as there are cores if not said.
+    time_limit
+        Longest time [s] that one run, or the search for one limit, may take.
+    """
+    from .adapters.runner import cores
+    from .listing import swept
+    from .main_job import new_folder
+    from .progress import bar
+    from .reports.stability_results import exit_code
+    from .scenarios.families import select
+    from .stability_job import lay
+    from .stability_job import run as sweep
+
+    _check_limits(workers, time_limit)
+    laid = lay(select(list(family)), engine or [], scheme or [])
+    folder = new_folder(out)
+    command = shlex.join(["poinsot", *_arguments()])
+    with bar() as progress:
+        found = sweep(laid, folder, command, workers or cores(), time_limit, progress)
+    print(swept(found, folder))  # noqa: T201 (the outcome of a sweep)
     return exit_code(found)
 
 
@@ -191,6 +235,13 @@ def main(tokens: Sequence[str] | None = None) -> int:
         return _complain(str(error), 3)
     except PoinsotError as error:
         return _complain(str(error), 4)
+
+
+def _check_limits(workers: int | None, time_limit: float) -> None:
+    if workers is not None and workers < 1:
+        raise InputError(f"--workers: got {workers}, expected at least 1")
+    if not time_limit > 0:
+        raise InputError(f"--time-limit: got {time_limit}, expected a number of seconds above 0")
 
 
 def _propose(found: dict[str, Any], folder: Path) -> None:

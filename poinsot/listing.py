@@ -67,6 +67,26 @@ def outcome(found: Mapping[str, Any], folder: Path) -> str:
     return "\n".join([*lines, *found["stale_deviations"], f"report: {folder / 'report.html'}"])
 
 
+def swept(found: Mapping[str, Any], folder: Path) -> str:
+    """How a sweep ended: runs by outcome, limits by verdict, what is not a pass, and where the page is."""
+    outcomes = Counter(point["outcome"] for each in found["maps"] for point in each["points"])
+    statuses = Counter(verdict["status"] for verdict in found["verdicts"])
+    lines = [
+        f"{sum(counts.values())} {noun}: "
+        + (", ".join(f"{n} {word}" for word, n in counts.most_common()) or "none")
+        for noun, counts in (("runs", outcomes), ("largest stable steps", statuses))
+    ]
+    wrong = [
+        f"{v['status']}: {v['scene']} in {v['engine']} {v['scheme']}: {v['message']}"
+        for v in found["verdicts"]
+        if v["status"] in ("fail", "fixed", "error")
+    ]
+    lines += wrong[:SHOWN]
+    if len(wrong) > SHOWN:
+        lines.append(f"… and {len(wrong) - SHOWN} more, on the page")
+    return "\n".join([*lines, *found["notes"], f"page: {folder / 'stability.html'}"])
+
+
 def _complaints(cell: Mapping[str, Any]) -> list[str]:
     place = f"{cell['scene']} in {cell['engine']} {cell['scheme']} at dt {cell['dt']:g} s"
     if cell["message"] and cell["status"] == "error":

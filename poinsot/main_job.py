@@ -1,5 +1,6 @@
 """The main job: scenes in engines, logs, verdicts, a report."""
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -33,7 +34,14 @@ class Progress(Protocol):
 
 
 def output_folder(out: Path | None) -> Path:
-    """Make the folder a run goes into: ``out``, new or empty, or a new dated one.
+    """Make the folder a run goes into, with one for its logs; as ``new_folder``."""
+    folder = new_folder(out)
+    (folder / LOGS).mkdir()
+    return folder
+
+
+def new_folder(out: Path | None) -> Path:
+    """Make the folder ``out``, new or empty, or a new dated one.
 
     Raises ``InputError`` if it holds something already or cannot be made or written.
     """
@@ -42,7 +50,8 @@ def output_folder(out: Path | None) -> Path:
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
             raise InputError(f"--out: got {folder}, which is not empty; expected a new or an empty folder")
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / LOGS).mkdir()
+        if not os.access(folder, os.W_OK):
+            raise InputError(f"--out: got {folder}, which cannot be written")
     except OSError as error:
         raise InputError(f"--out: got {folder}, which cannot be written ({error.strerror})") from error
     return folder

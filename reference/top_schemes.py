@@ -50,6 +50,21 @@ def body_rates(
     return rates
 
 
+def largest_stable_step(scheme: Gyroscopic, I1: float, I3: float, omega3: float) -> float:
+    """Step [s] up to which the rates of a free symmetric top do not grow; inf if there is none.
+
+    0 for the explicit scheme, no limit for the implicit one, 2√2/|Ω| for RK4; where Ω is 0 nothing grows.
+    Raises InputError for another scheme or moments that no body has. Source: |λ| ≤ 1 in `body_rates`.
+    """
+    if scheme not in ("explicit", "implicit", "rk4"):
+        raise InputError(f"scheme: got {scheme!r}, expected explicit, implicit or rk4")
+    principal_moments("I1, I1, I3", [I1, I1, I3])
+    rate = abs((I3 - I1) / I1 * omega3)
+    if rate == 0 or scheme == "implicit":
+        return float("inf")
+    return 0.0 if scheme == "explicit" else float(2 * np.sqrt(2) / rate)
+
+
 def _step_logarithm(scheme: Gyroscopic, z: np.longdouble) -> tuple[np.longdouble, np.longdouble]:
     # log1p and arctan keep the digits that 1 + iz would round away at small z.
     if scheme == "rk4":

@@ -2,7 +2,10 @@
 
 import math
 
+from ..adapters.runner import Failure
+from ..adapters.stable_step import StableStep
 from .cell import Cell
+from .stability_results import Sweep
 from .verdict import Status, Verdict
 
 #: The limit is sought to 5e-3; a scheme that is another one by a part in a hundred is another one.
@@ -16,14 +19,29 @@ def check(cell: Cell) -> list[Verdict]:
     if theory is None or not found:
         return []
     held, grew = found
-    limit = theory(cell.scene, cell.provenance.twin)
+    status, measured, message = told(held, grew, theory(cell.scene, cell.provenance.twin))
+    allowed = None if measured is None else TOLERANCE
+    return [cell.verdict("stability", NAME, status, message, measured, allowed, "1")]
+
+
+def verdict(scene: str, sweep: Sweep, dt: float, found: StableStep | Failure, limit: float | None) -> Verdict:
+    """The verdict on a limit that a sweep found, or did not, in ``scene`` from a step of ``dt`` [s] on."""
+    cell = (scene, sweep.engine, sweep.engine_version, sweep.scheme, dt, "stability", NAME)
+    if isinstance(found, Failure):
+        return Verdict(*cell, Status.ERROR, None, None, "1", None, str(found))
+    status, measured, message = told(found.held, found.grew, limit)
+    allowed = None if measured is None else TOLERANCE
+    return Verdict(*cell, status, measured, allowed, "1", None, message)
+
+
+def told(held: float, grew: float, limit: float | None) -> tuple[Status, float | None, str]:
+    """Status, deviation and a sentence on what ``held`` and ``grew`` [s], for a theory's ``limit``."""
+    seen = _seen(held, grew)
     if limit is None:
-        said = f"no theory is known here for the scheme; measured: {_told(held, grew)}"
-        return [cell.verdict("stability", NAME, Status.UNSUPPORTED, said)]
+        return Status.UNSUPPORTED, None, f"no theory is known here for the scheme; measured: {seen}"
     error = deviation(held, grew, limit)
     status = Status.PASS if error <= TOLERANCE else Status.FAIL
-    message = f"{_told(held, grew)}; by theory {_limit(limit)}{_suspicion(held, grew, limit)}"
-    return [cell.verdict("stability", NAME, status, message, error, TOLERANCE, "1")]
+    return status, error, f"{seen}; by theory {_limit(limit)}{_suspicion(held, grew, limit)}"
 
 
 def deviation(held: float, grew: float, limit: float) -> float:
@@ -42,7 +60,7 @@ def between(held: float, grew: float) -> float:
     return grew if math.isinf(grew) else math.sqrt(held * grew)
 
 
-def _told(held: float, grew: float) -> str:
+def _seen(held: float, grew: float) -> str:
     if math.isinf(grew):
         return f"energy stays bounded at every step up to {held:.4g} s, the largest tried"
     if not held:

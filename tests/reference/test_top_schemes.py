@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 from poinsot.reference.errors import InputError
-from poinsot.reference.top_schemes import body_rates
+from poinsot.reference.top_schemes import body_rates, largest_stable_step
 
 
 def acceleration(moments, w):
@@ -94,3 +94,29 @@ def test_refuses_what_is_no_top_or_no_step():
             body_rates(**(good | {argument: value}))
     with pytest.raises(InputError, match="past the largest double"):
         body_rates("explicit", 1.0, 1.5, [1.0, 0.0, 5.0], 1.0, [10_000])
+
+
+@pytest.mark.parametrize(("I1", "I3", "omega3"), [(0.01, 0.02, 5.0), (0.02, 1e-6, -300.0), (1.0, 1.5, 1e-3)])
+def test_largest_stable_step_is_where_the_rates_begin_to_grow(I1, I3, omega3):
+    limit = largest_stable_step("rk4", I1, I3, omega3)
+    assert limit == pytest.approx(np.sqrt(8) * I1 / abs((I3 - I1) * omega3), rel=1e-14)
+    sizes = [
+        np.hypot(*body_rates("rk4", I1, I3, [1.0, 0.0, omega3], share * limit, [500])[0, :2])
+        for share in (0.999, 1.001)
+    ]
+    assert sizes[0] < 1 < sizes[1]
+    # At a thousandth of it, explicit Euler grows and the implicit scheme dies down.
+    for scheme, grows, expected in (("explicit", True, 0.0), ("implicit", False, np.inf)):
+        assert largest_stable_step(scheme, I1, I3, omega3) == expected
+        after = body_rates(scheme, I1, I3, [1.0, 0.0, omega3], 1e-3 * limit, [500])[0, :2]
+        assert (np.hypot(*after) > 1) == grows
+
+
+def test_nothing_grows_in_a_body_without_precession():
+    for scheme in ("explicit", "implicit", "rk4"):
+        assert largest_stable_step(scheme, 1.0, 1.0, 5.0) == np.inf
+        assert largest_stable_step(scheme, 1.0, 1.5, 0.0) == np.inf
+    with pytest.raises(InputError, match="rk4"):
+        largest_stable_step("euler", 1.0, 1.5, 1.0)
+    with pytest.raises(InputError):
+        largest_stable_step("rk4", 1.0, 2.5, 1.0)

@@ -1,0 +1,125 @@
+"""The page of a sweep: maps, measured limits against theory, and what happens past the limit."""
+
+import math
+import re
+from collections import Counter
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader
+from markupsafe import Markup
+
+from .outcomes import Outcome
+from .stability import TOLERANCE, between, deviation
+from .stability_map import picture, sign
+from .verdict import Status
+from .wording import GLYPHS, number, printable
+
+#: What engines do by default, which Poinsot's adapters switch off; tests/reports/test_outcomes.py sees it.
+DEFAULTS = (
+    (
+        "mujoco 4.0.0",
+        "autoreset on",
+        Outcome.RESET,
+        "Past the limit the state and the clock go back to zero, as soon as a coordinate, velocity or "
+        "acceleration is over 1e10 or no number; the arrays are calm again.",
+    ),
+    (
+        "pybullet 3.2.7",
+        "maxJointVelocity 100",
+        Outcome.CLAMPED,
+        "Past the limit each joint velocity stays at ±100, finite and bounded for ever.",
+    ),
+)
+
+
+def render(results: Mapping[str, Any], out: Path) -> None:
+    """Write the page on ``results`` (the content of stability.json) to the file ``out``."""
+    verdicts = results["verdicts"]
+    text = _template().render(
+        results=results,
+        counts=Counter(Status(verdict["status"]) for verdict in verdicts),
+        outcomes=[(outcome, sign(outcome)) for outcome in Outcome],
+        engines=list(dict.fromkeys(found["engine"] for found in results["maps"])),
+        limits=[_limits(found, verdicts) for found in results["maps"] if found["limits"]],
+        past=[row for found in results["maps"] if (row := _past(found))],
+        defaults=[(engine, setting, sign(outcome), said) for engine, setting, outcome, said in DEFAULTS],
+        picture=lambda found: picture(found, results["families"][found["family"]]),
+        words=lambda found: _range([row["limit"] for row in found["theory"]]),
+        tolerance=TOLERANCE,
+        not_passes=[verdict for verdict in verdicts if verdict["status"] != Status.PASS.value],
+        Status=Status,
+    )
+    out.write_text(text, encoding="utf-8")
+
+
+@cache
+def _template() -> Any:
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent / "templates"),
+        autoescape=True,
+        finalize=lambda value: printable(value) if type(value) is str else value,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.globals["GLYPHS"] = GLYPHS
+    return environment.get_template("stability.html.j2")
+
+
+def who(found: Mapping[str, Any]) -> str:
+    """Engine with its version, and scheme."""
+    return f"{found['engine']} {found['engine_version']}, {found['scheme']}"
+
+
+def _limits(found: Mapping[str, Any], verdicts: list[dict[str, Any]]) -> tuple[str, ...]:
+    """Family, scheme, theory in words, the limits measured, the worst deviation, and the verdicts."""
+    theory = {row["value"]: row["limit"] for row in found["theory"]}
+    worst = max(_deviation(limit, theory[limit["value"]]) for limit in found["limits"])
+    mine = [
+        verdict["status"]
+        for verdict in verdicts
+        if (verdict["engine"], verdict["scheme"]) == (found["engine"], found["scheme"])
+        and verdict["scene"].partition("[")[0] == found["family"]
+    ]
+    judged = ", ".join(f"{n} {status}" for status, n in Counter(mine).items())
+    measured = _range([_between(limit) for limit in found["limits"]])
+    return found["family"], who(found), _range(list(theory.values())), measured, number(worst), judged
+
+
+def _between(limit: Mapping[str, Any]) -> float | str:
+    middle = between(limit["held"], math.inf if limit["grew"] is None else limit["grew"])
+    return "any" if math.isinf(middle) else middle
+
+
+def _deviation(limit: Mapping[str, Any], theory: float | str) -> float:
+    grew = math.inf if limit["grew"] is None else limit["grew"]
+    return deviation(limit["held"], grew, math.inf if theory == "any" else float(theory))
+
+
+def _range(limits: list[Any]) -> str:
+    """Limits [s] in few words."""
+    kinds = {"any": "holds at any step", 0.0: "grows at any step"}
+    words = [text for limit, text in kinds.items() if limit in limits]
+    steps = sorted(limit for limit in limits if limit is not None and limit not in kinds)
+    if steps:
+        last = f" … {steps[-1]:.4g} s" if steps[-1] > steps[0] else ""
+        words.append(f"holds up to {steps[0]:.4g} s{last}")
+    return "; ".join(words)
+
+
+def _past(found: Mapping[str, Any]) -> tuple[str, str, list[tuple[Markup, Outcome, int]], str] | None:
+    """Family, scheme, what becomes of runs past theory's limit and of how many, and what is said then."""
+    theory = {row["value"]: row["limit"] for row in found["theory"]}
+    past = [point for point in found["points"] if _is_past(point["dt"], theory[point["value"]])]
+    if not past:
+        return None
+    counts = Counter(Outcome(point["outcome"]) for point in past)
+    said = Counter(re.sub(r"\d[-+.\de]*", "…", point["said"]) for point in past if point["said"])
+    shown = [(sign(outcome), outcome, n) for outcome, n in counts.most_common()]
+    return found["family"], who(found), shown, "; ".join(text for text, _ in said.most_common(2))
+
+
+def _is_past(dt: float, limit: float | str | None) -> bool:
+    return isinstance(limit, float | int) and dt > limit * (1 + TOLERANCE)

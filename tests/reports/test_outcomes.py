@@ -1,0 +1,229 @@
+"""What became of a run, told by its motion: each outcome by an engine that does so and one that does not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("mujoco")
+pytest.importorskip("pinocchio")
+pytest.importorskip("pybullet")
+
+from poinsot.adapters import mujoco_, pybullet_
+from poinsot.adapters.engine import EngineError
+from poinsot.adapters.mujoco_ import MuJoCo
+from poinsot.adapters.observed import SAMPLES, Observed, observe
+from poinsot.adapters.pinocchio_ import Pinocchio
+from poinsot.adapters.pybullet_ import PyBullet
+from poinsot.reference.errors import InputError
+from poinsot.reports.outcomes import Outcome, judged
+from poinsot.scenarios import extreme_tops
+from poinsot.scenarios.stiff_spring import on_spring
+
+SCENE = on_spring(1e4)
+#: Step [s] at which ωdt is 1.
+UNIT = 1e-2
+
+
+def outcome(engine, z, scheme=None, scene=SCENE, most=4000):
+    chosen = next((s for s in engine.schemes if s.name == scheme), engine.schemes[0])
+    return judged(scene, observe(scene, engine, chosen, z * UNIT, most))
+
+
+@pytest.mark.parametrize(
+    ("engine", "scheme", "z", "expected"),
+    [
+        (MuJoCo, "Euler", 1e-2, Outcome.ACCURATE),
+        (MuJoCo, "Euler", 1.0, Outcome.BOUNDED),
+        (MuJoCo, "Euler", 1.999, Outcome.BOUNDED),
+        (MuJoCo, "Euler", 2.01, Outcome.GROWING),
+        (MuJoCo, "Euler", 1e3, Outcome.NOT_FINITE),
+        (MuJoCo, "RK4", 0.1, Outcome.ACCURATE),
+        (MuJoCo, "RK4", 2.8, Outcome.BOUNDED),
+        (MuJoCo, "RK4", 2.86, Outcome.GROWING),
+        (MuJoCo, "discrete", 1e6, Outcome.BOUNDED),
+        (Pinocchio, "semi-implicit Euler", 2.01, Outcome.GROWING),
+        (Pinocchio, "RKMK4", 1e3, Outcome.NOT_FINITE),
+        (PyBullet, "reduced coordinates", 1.999, Outcome.BOUNDED),
+        (PyBullet, "reduced coordinates", 1e3, Outcome.NOT_FINITE),
+        (PyBullet, "maximal coordinates", 1.0, Outcome.REFUSED),
+    ],
+)
+def test_right_engines(engine, scheme, z, expected):
+    assert outcome(engine, z, scheme).outcome is expected
+
+
+class Resetting(MuJoCo):
+    """Leaves MuJoCo's own reset on, as it is by default, and says nothing of it."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._model.opt.disableflags &= ~int(mujoco_.mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+
+    def _sound(self, state):
+        pass
+
+
+@pytest.mark.parametrize("z", [2.5, 3.0, 1e3, 1e6])
+def test_a_reset_is_seen_though_nothing_is_said(z):
+    found = outcome(Resetting, z)
+    assert found.outcome is Outcome.RESET
+    assert found.said == ""
+    # The same engine with its reset off never comes back.
+    assert outcome(MuJoCo, z).outcome in (Outcome.GROWING, Outcome.NOT_FINITE)
+
+
+def test_a_reset_on_is_no_reset_where_the_step_holds():
+    for z, expected in ((1e-2, Outcome.ACCURATE), (1.9, Outcome.BOUNDED)):
+        assert outcome(Resetting, z).outcome is expected
+
+
+class BackToStart(Pinocchio):
+    """Starts again from the scene's own state once it is too fast."""
+
+    def step(self, n):
+        super().step(n)
+        if not np.abs(self._velocity).max() < 1e6:
+            self._position, self._velocity = self._ours_to_pinocchio(self._scene.q0, self._scene.v0)
+
+
+class Frozen(Pinocchio):
+    """Throws each step away."""
+
+    def step(self, n):
+        pass
+
+
+@pytest.mark.parametrize(("engine", "z"), [(BackToStart, 2.1), (BackToStart, 50.0), (Frozen, 1.0)])
+def test_a_return_to_the_start_is_a_reset(engine, z):
+    assert outcome(engine, z).outcome is Outcome.RESET
+
+
+class Clamped(PyBullet):
+    """Leaves PyBullet's clamp of velocities where it is by default."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        client = self._world.client
+        for i in range(pybullet_.p.getNumBodies(client)):
+            uid = pybullet_.p.getBodyUniqueId(i, client)
+            pybullet_.p.changeDynamics(uid, -1, maxJointVelocity=100, physicsClientId=client)
+
+
+class ClampedSpin(Pinocchio):
+    """Lets no component of a velocity above 50."""
+
+    def step(self, n):
+        for _ in range(n):
+            super().step(1)
+            self._velocity = np.clip(self._velocity, -50, 50)
+
+
+@pytest.mark.parametrize("z", [2.1, 3.0, 100.0])
+def test_a_clamp_is_seen(z):
+    assert outcome(Clamped, z).outcome is Outcome.CLAMPED
+
+
+def test_a_clamp_that_is_not_met_is_none():
+    for z, expected in ((1e-2, Outcome.ACCURATE), (1.9, Outcome.BOUNDED)):
+        assert outcome(Clamped, z).outcome is expected
+
+
+def test_a_clamp_below_the_motion_itself_is_seen():
+    # Its own spin of 200 rad/s is cut at the first step, and then stays what the clamp lets it be.
+    scene = extreme_tops.spin(200.0)
+    found = judged(scene, observe(scene, ClampedSpin, ClampedSpin.schemes[0], 1e-5, 4000))
+    assert found.outcome is Outcome.CLAMPED
+    slow = extreme_tops.spin(20.0)
+    found = judged(slow, observe(slow, ClampedSpin, ClampedSpin.schemes[0], 1e-5, 4000))
+    assert found.outcome is Outcome.ACCURATE
+
+
+def test_steady_spin_is_no_clamp():
+    # ω3 of a symmetric top is constant in truth too, and what an implicit scheme dies down to is approached.
+    scene = extreme_tops.inertia_ratio(0.5)
+    for engine, scheme in ((MuJoCo, "Euler"), (MuJoCo, "implicit"), (MuJoCo, "RK4")):
+        for dt in (1e-4, 1e-2, 1.0):
+            chosen = next(s for s in engine.schemes if s.name == scheme)
+            found = judged(scene, observe(scene, engine, chosen, dt, 4000))
+            assert found.outcome is not Outcome.CLAMPED
+            assert found.outcome is not Outcome.RESET
+
+
+class Speechless(Pinocchio):
+    """Complains of a sound run."""
+
+    def state(self):
+        raise EngineError("all is lost", super().state())
+
+
+class Sleeping(Pinocchio):
+    """Refuses small steps, and others once half way."""
+
+    def build(self, scene, scheme, dt):
+        if dt < 1e-4:
+            raise InputError("no such step")
+        self._calls = 0
+        super().build(scene, scheme, dt)
+
+    def step(self, n):
+        self._calls += 1
+        if self._calls > 100:
+            raise ArithmeticError("no more")
+        super().step(n)
+
+
+def test_what_an_engine_says_does_not_decide():
+    found = outcome(Speechless, 1e-2)
+    assert found.outcome is Outcome.ACCURATE
+    assert found.said == "all is lost"
+
+
+def test_refused_at_once_or_broken_off():
+    assert outcome(Sleeping, 1e-3).outcome is Outcome.REFUSED
+    found = outcome(Sleeping, 0.1)
+    assert found.outcome is Outcome.NOT_FINITE
+    assert found.said == "ArithmeticError: no more"
+
+
+def test_not_a_number_in_silence_is_seen():
+    class Lost(Pinocchio):
+        def state(self):
+            state = super().state()
+            return state._replace(velocity=state.velocity * np.nan) if self._steps > 150 else state
+
+    assert outcome(Lost, 1.0).outcome is Outcome.NOT_FINITE
+
+
+def test_numbers_beside_the_outcome():
+    accurate = outcome(MuJoCo, 1e-2)
+    # First order: the displacement errs by a part ωdt/2 of itself.
+    assert accurate.error == pytest.approx(5e-3, rel=0.3)
+    assert accurate.energy_most == pytest.approx(1.0, abs=0.02)
+    lost = outcome(MuJoCo, 10.0, "discrete")
+    assert lost.energy_last < 1e-100
+    assert lost.energy_most == pytest.approx(1.0)
+    broken = outcome(MuJoCo, 1e3)
+    assert (broken.error, broken.energy_most) == (None, None)
+    assert "BADQACC" in broken.said
+
+
+def test_length_of_a_run():
+    short = observe(SCENE, Pinocchio, Pinocchio.schemes[0], 1.0, 4000)
+    assert short.steps == SAMPLES
+    assert len(short.motion.t) == SAMPLES + 1
+    long = observe(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.duration / 3000, 4000)
+    assert long.steps == 3000
+    assert long.motion.t[-1] == pytest.approx(SCENE.duration)
+    cut = observe(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.duration / 1e6, 4000)
+    assert cut.steps == 4000
+
+
+def test_nothing_seen_is_refused():
+    assert judged(SCENE, Observed(1.0, 200, None, "why")).said == "why"
+    assert judged(replace(SCENE), Observed(1.0, 200, None)).outcome is Outcome.REFUSED
+
+
+def test_every_outcome_has_a_sentence():
+    for each in Outcome:
+        assert each.sentence
