@@ -16,7 +16,11 @@ UNIT_TOLERANCE = 1e-9
 def finite(name: str, value: npt.ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
     """``value`` as a finite float64 array, of ``shape`` if one is given (-1 matches any length)."""
     try:
-        array = np.asarray(value, dtype=np.float64)
+        given = np.asarray(value)
+        # numpy would read the text "1", take true for 1 and drop an imaginary part.
+        if given.dtype.kind in "USbcmM":
+            raise InputError(f"{name}: got {value!r}, expected numbers")
+        array = given.astype(np.float64, copy=False)
     except (TypeError, ValueError) as cause:
         raise InputError(f"{name}: got {value!r}, expected numbers") from cause
     if shape is not None and array.shape != shape and not _fits(array.shape, shape):
@@ -88,17 +92,17 @@ def unit_quaternions(name: str, value: npt.ArrayLike) -> Array:
     return q
 
 
-def principal_moments(name: str, value: npt.ArrayLike) -> Array:
+def principal_moments(name: str, value: npt.ArrayLike, rounding: float = 4.0) -> Array:
     """``value`` (3,) [kg m²]: each positive, none above the sum of the other two.
 
-    A plate (I3 = I1 + I2) is allowed; four units in the last place are granted to its rounding.
+    A plate (I3 = I1 + I2) is allowed; so many units in the last place are granted to its ``rounding``.
     """
     moments = finite(name, value, (3,))
     least, middle, largest = sorted(moments.tolist())
     if least <= 0:
         raise InputError(f"{name}: got {moments.tolist()}, expected three moments above 0")
     others = least + middle
-    if largest > others * (1 + 4 * np.finfo(np.float64).eps):
+    if largest > others * (1 + rounding * np.finfo(np.float64).eps):
         raise InputError(
             f"{name}: got {moments.tolist()}, whose largest exceeds the sum of the other two, {others}; "
             "no body has such moments"

@@ -24,6 +24,9 @@ Matrix = tuple[Vector, Vector, Vector]
 
 #: Length of a joint's position and velocity in ``Scene.q0`` and ``Scene.v0``.
 WIDTHS: dict[str, tuple[int, int]] = {"free": (7, 6), "ball": (4, 3), "hinge": (1, 1), "slide": (1, 1)}
+#: What finding principal moments may cost, in units of the largest's last place: of 20000 plates at random
+#: attitudes none came out beyond itself by more than 8.
+TURNED = 16
 IDENTITY: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
@@ -94,7 +97,9 @@ class Body:
             )
         diagonal = np.count_nonzero(inertia) == np.count_nonzero(inertia.diagonal())
         moments = inertia.diagonal() if diagonal else np.linalg.eigvalsh(inertia)
-        principal_moments(f"body {self.name!r} inertia", moments)
+        if not diagonal:  # a moment of 0 comes out as a rounding of the others
+            moments = np.where(moments > TURNED * np.finfo(np.float64).eps * moments[2], moments, 0.0)
+        principal_moments(f"body {self.name!r} inertia", moments, 4 if diagonal else TURNED)
         if any(joint.kind == "free" for joint in self.joints) and (len(self.joints) > 1 or self.parent):
             raise InputError(
                 f"body {self.name!r}: a free joint must be its body's only one, and its parent the world"
