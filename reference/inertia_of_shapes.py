@@ -1,7 +1,7 @@
 """Volume, centre and inertia of uniform solids, in closed form.
 
 The z axis is the axis of symmetry. A solid of density ρ has mass ρ·volume and, about its centre of mass,
-the tensor mass·inertia: ``inertia`` is that of one kilogram [m²].
+the tensor mass·inertia: ``inertia`` is that of one kilogram [m²]. Of a shell ``volume`` is the area.
 
 Source: Landau & Lifshitz, *Mechanics*, § 32, problem 2; Goldstein, *Classical Mechanics*, ch. 5 and its
 exercises. Each follows from ∫(r²1 − r rᵀ)dV by hand; lengths are in metres and must be above 0.
@@ -18,7 +18,10 @@ from .inertia import about_point, centre_of, of_points
 
 
 class Solid(NamedTuple):
-    """Volume [m³], centre of mass (3,) [m] and inertia (3, 3) of one kilogram about that centre [m²]."""
+    """Volume [m³], centre of mass (3,) [m] and inertia (3, 3) of one kilogram about that centre [m²].
+
+    Of a shell, all of whose mass is in its surface, the volume is the area [m²].
+    """
 
     volume: float
     centre: Array
@@ -42,6 +45,12 @@ def hollow_sphere(inner: float, outer: float) -> Solid:
     squares = a**2 + a * b + b**2
     moment = 0.4 * (a**4 + a**3 * b + a**2 * b**2 + a * b**3 + b**4) / squares
     return _centred(4 / 3 * np.pi * (b - a) * squares, moment, moment, moment)
+
+
+def shell(radius: float) -> Solid:
+    """Sphere about the origin that is all surface: 2/3 r². Source: `hollow_sphere` as a comes to b."""
+    r = positive("radius", radius)
+    return _centred(4 * np.pi * r**2, 2 / 3 * r**2, 2 / 3 * r**2, 2 / 3 * r**2)
 
 
 def box(x: float, y: float, z: float) -> Solid:
@@ -86,6 +95,46 @@ def cone(radius: float, height: float) -> Solid:
     across = 0.15 * (R**2 + h**2 / 4)
     solid = _centred(np.pi * R**2 * h / 3, across, across, 0.3 * R**2)
     return solid._replace(centre=np.array([0, 0, 0.75 * h]))
+
+
+def pyramid(sides: int, radius: float, height: float) -> Solid:
+    """Pyramid, tip at the origin, opening towards +z on a regular polygon of this radius.
+
+    About the centre, which is 3h/4 from the tip, 3/10 R²(2 + cos 2π/n)/3 along the axis, half of that and
+    3/80 h² across it; with more and more sides, the cone. Source: the polygon of triangles about its middle.
+    """
+    R, h = positive("radius", radius), positive("height", height)
+    if sides < 3:
+        raise InputError(f"sides: got {sides}, expected at least 3")
+    angle = 2 * np.pi / sides
+    along = 0.1 * R**2 * (2 + np.cos(angle))
+    across = along / 2 + 3 / 80 * h**2
+    solid = _centred(sides / 6 * R**2 * np.sin(angle) * h, across, across, along)
+    return solid._replace(centre=np.array([0, 0, 0.75 * h]))
+
+
+def polyhedron(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> Solid:
+    """Solid within triangular ``faces`` (m, 3), which are numbers of ``vertices`` (n, 3) [m].
+
+    Seen from outside, a face's numbers go against the clock. Each face and the first vertex make a
+    tetrahedron, and those add up with their signs. Raises InputError if a face names no vertex or no volume
+    is left. Source: ∫x xᵀ dV of a tetrahedron with a corner at the origin and edges a, b, c:
+    det(a, b, c)/120 times the sum of a aᵀ, b bᵀ, c cᵀ and (a + b + c)(a + b + c)ᵀ.
+    """
+    corners = finite("vertices", vertices, (-1, 3))
+    numbers = np.asarray(faces)
+    if numbers.ndim != 2 or numbers.shape[1] != 3 or not set(numbers.flat) <= set(range(len(corners))):
+        raise InputError(f"faces: got {faces!r}, expected triples of numbers from 0 to {len(corners) - 1}")
+    edges = (corners - corners[0])[numbers]
+    six_volumes, sums = np.linalg.det(edges), edges.sum(axis=1)
+    volume = float(six_volumes.sum() / 6)
+    middle = six_volumes @ sums / 24 / positive("volume within the faces", volume)
+    squares = np.einsum("f,fki,fkj->ij", six_volumes, edges, edges)
+    second = (squares + np.einsum("f,fi,fj->ij", six_volumes, sums, sums)) / 120 / volume
+    second -= np.outer(middle, middle)
+    inertia = np.diag(np.diag(second)[[1, 2, 0]] + np.diag(second)[[2, 0, 1]])
+    inertia -= np.where(np.eye(3), 0.0, (second + second.T) / 2)
+    return Solid(volume, corners[0] + middle, inertia)
 
 
 def cube_about_corner(mass: float, edge: float) -> Array:

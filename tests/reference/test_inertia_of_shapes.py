@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from poinsot.reference import inertia_of_shapes as shapes
 from poinsot.reference.errors import InputError
 from poinsot.reference.inertia import about_point, physical, principal
+from poinsot.reference.quaternions import matrix
 
 # A few roundings of sums of positive terms; the quadrature has some thousand of them.
 ROUNDING = 1e-13
@@ -233,3 +234,90 @@ def test_other_bad_sizes():
 def test_every_solid_is_physical(a, b, c):
     for solid in (shapes.box(a, b, c), shapes.ellipsoid(a, b, c), shapes.cylinder(a, b), shapes.cone(a, b)):
         physical(solid.inertia)
+
+
+def test_shell_is_what_a_hollow_sphere_comes_to():
+    b, t = 0.3, 1e-13
+    np.testing.assert_allclose(
+        shapes.shell(b).inertia, shapes.hollow_sphere(b - t, b).inertia, rtol=1e-12, atol=0
+    )
+    assert shapes.shell(b).volume == pytest.approx(
+        shapes.hollow_sphere(b - t, b).volume / (b - (b - t)), rel=1e-12
+    )
+
+
+def test_pyramid_on_a_triangle_and_on_a_square():
+    # On an equilateral triangle of edge a: A = √3/4 a², and a²/24 about an axis of the triangle per area.
+    a, h = 0.4, 0.7
+    three = shapes.pyramid(3, a / np.sqrt(3), h)
+    assert three.volume == pytest.approx(np.sqrt(3) / 12 * a**2 * h, rel=1e-15)
+    assert three.inertia[2, 2] == pytest.approx(3 / 5 * a**2 / 12, rel=1e-15)
+    four = shapes.pyramid(4, a / np.sqrt(2), h)
+    assert four.volume == pytest.approx(a**2 * h / 3, rel=1e-15)
+    assert four.inertia[2, 2] == pytest.approx(a**2 / 10, rel=1e-15)
+    assert four.inertia[0, 0] == pytest.approx(a**2 / 20 + 3 / 80 * h**2, rel=1e-15)
+
+
+def test_pyramid_on_ever_more_sides_is_a_cone():
+    errors = [
+        shapes.pyramid(n, 0.3, 0.8).inertia[0, 0] / shapes.cone(0.3, 0.8).inertia[0, 0] - 1 for n in (50, 100)
+    ]
+    assert errors[0] == pytest.approx(4 * errors[1], rel=1e-2)
+    assert abs(errors[1]) < 1e-3
+    with pytest.raises(InputError, match="sides: got 2"):
+        shapes.pyramid(2, 0.3, 0.8)
+
+
+def cone_mesh(sides, radius, height):
+    """A pyramid as triangles; its tip is no special corner, and its base is a fan from one of its own."""
+    turns = 2 * np.pi * np.arange(sides) / sides
+    corners = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(sides, height)])
+    around = [(k, sides, (k + 1) % sides) for k in range(sides)]
+    return np.vstack([corners, np.zeros(3)]), [*around, *((0, k, k + 1) for k in range(1, sides - 1))]
+
+
+@pytest.mark.parametrize("sides", [3, 4, 7, 24])
+def test_polyhedron_and_pyramid_agree(sides):
+    solid, mesh = shapes.pyramid(sides, 0.3, 0.8), shapes.polyhedron(*cone_mesh(sides, 0.3, 0.8))
+    assert mesh.volume == pytest.approx(solid.volume, rel=1e-14)
+    np.testing.assert_allclose(mesh.centre, solid.centre, atol=1e-15)
+    np.testing.assert_allclose(mesh.inertia, solid.inertia, atol=1e-15)
+
+
+def test_polyhedron_is_the_same_wherever_it_is_and_however_it_is_turned():
+    vertices, faces = cone_mesh(5, 0.3, 0.8)
+    solid = shapes.polyhedron(vertices, faces)
+    turn = matrix(np.array([0.48, -0.36, 0.0, 0.8]))
+    moved = shapes.polyhedron(vertices @ turn.T + [1.0, -2.0, 0.5], faces)
+    np.testing.assert_allclose(moved.centre, turn @ solid.centre + [1.0, -2.0, 0.5], atol=1e-14)
+    np.testing.assert_allclose(moved.inertia, turn @ solid.inertia @ turn.T, atol=1e-14)
+    assert np.abs(moved.inertia - np.diag(np.diag(moved.inertia))).max() > 1e-3
+
+
+def test_a_polyhedron_with_a_hollow():
+    # A hollow's faces are counted the other way round.
+    vertices, faces = cone_mesh(6, 0.3, 0.8)
+    inner = 0.5 * (vertices - [0, 0, 0.6]) + [0.02, 0, 0.6]
+    both = shapes.polyhedron(
+        np.vstack([vertices, inner]), [*faces, *((a + 7, c + 7, b + 7) for a, b, c in faces)]
+    )
+    outer, hole = shapes.polyhedron(vertices, faces), shapes.polyhedron(inner, faces)
+    assert both.volume == pytest.approx(outer.volume - hole.volume, rel=1e-14)
+    mass = both.volume
+    about = [
+        s.volume * s.inertia + s.volume * (d @ d * np.eye(3) - np.outer(d, d))
+        for s in (outer, hole)
+        for d in [s.centre - both.centre]
+    ]
+    np.testing.assert_allclose(mass * both.inertia, about[0] - about[1], atol=1e-15)
+
+
+@pytest.mark.parametrize("faces", [[(0, 1, 9)], [(0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]])
+def test_faces_that_enclose_nothing_are_refused(faces):
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    right = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    assert shapes.polyhedron(corners, right).volume == pytest.approx(1 / 6)
+    if faces == right:
+        faces = [(a, c, b) for a, b, c in faces]
+    with pytest.raises(InputError, match="faces"):
+        shapes.polyhedron(corners, faces)
