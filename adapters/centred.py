@@ -66,6 +66,9 @@ def centred(scene: Scene) -> Centred:
             body,
             center_of_mass=_less(body.center_of_mass, offsets[body.name]),
             position=_less(body.position, offsets.get(body.parent, _NOT)),
+            solids=tuple(
+                replace(solid, position=_less(solid.position, offsets[body.name])) for solid in body.solids
+            ),
         )
         for body in scene.bodies
     )

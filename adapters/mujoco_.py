@@ -19,6 +19,8 @@ from .mujoco_forces import Forces
 from .mujoco_mjcf import mjcf
 from .mujoco_parts import built
 from .mujoco_reactions import reactions
+from .mujoco_settings import SETTINGS
+from .mujoco_solids import NO_HOLLOW, add_solids
 from .mujoco_told import inertial_frame, world
 
 #: Where a joint's coordinates lie among MuJoCo's, whose quaternions are scalar-first.
@@ -29,12 +31,14 @@ _FOR_CONTACT = ("contact", "constraint")
 _FIRST_ORDER = {
     "contact": "MuJoCo's contact takes a whole step to act: only first-order schemes can carry it",
     "burning": "MuJoCo's masses stand still over a step: only first-order schemes can carry their fall",
+    **NO_HOLLOW,
 }
 _NO_TURN = (1.0, 0.0, 0.0, 0.0)
 
 _SOFT_CONTACT = {
     "contact": "it takes a contact's damper at the end of the step: one of 1/dt leaves half the speed of a "
-    "blow, and none lets two bodies part"
+    "blow, and none lets two bodies part",
+    **NO_HOLLOW,
 }
 
 
@@ -52,25 +56,14 @@ class MuJoCo:
 
     name: ClassVar[str] = "mujoco"
     schemes: ClassVar[tuple[Scheme, ...]] = (
-        Scheme("Euler", 1, "semi-implicit Euler", {}),
-        Scheme("implicit", 1, "implicit gyroscopic", {}),
-        Scheme("implicitfast", 1, "implicitfast", {}),
+        Scheme("Euler", 1, "semi-implicit Euler", NO_HOLLOW),
+        Scheme("implicit", 1, "implicit gyroscopic", NO_HOLLOW),
+        Scheme("implicitfast", 1, "implicitfast", NO_HOLLOW),
         Scheme("RK4", 4, "RKMK4", _FIRST_ORDER),
         Scheme("discrete", 1, "discrete", _SOFT_CONTACT),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
-    settings: ClassVar[dict[str, str]] = {
-        "autoreset": "off: a state that is not finite stays what it is and is reported",
-        "eulerdamp": "off: Euler takes dampers at the start of the step, as its twins do",
-        "contact, constraint": "off, but where a scene has contacts",
-        "contacts": "impedance 0.9999; a blow without spring, damped at (1 + e)/dt; a rough contact with a "
-        "spring of 1/dt², damped at 1/dt; elliptic cone, impratio 10, tolerance 0; what slides: impedance "
-        "0.995, impratio 1e4, friction undamped; under a rim: impedance 0.99, impratio 1e4",
-        "free bodies": "moved by their centre of mass, wherever their origin is, as PyBullet moves them",
-        "forces": "by the callback for passive forces, at every stage of a step",
-        "sameframe": "none, where the inertial frame differs at all from the body's; "
-        "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
-    }
+    settings: ClassVar[dict[str, str]] = SETTINGS
 
     @staticmethod
     def version() -> str:
@@ -226,7 +219,7 @@ def _spec(scene: Scene, scheme: Scheme, dt: float) -> tuple[Any, list[Any], list
     bodies: dict[str | None, Any] = {None: spec.worldbody}
     joints = []
     for body in scene.bodies:
-        bodies[body.name] = _add_body(bodies[body.parent], body)
+        bodies[body.name] = _add_body(spec, bodies[body.parent], body)
         joints += [_add_joint(bodies[body.name], joint) for joint in body.joints]
     if scene.contacts:
         add_contacts(mujoco, spec, bodies, scene, dt)
@@ -237,9 +230,13 @@ def _switched_off(scene: Scene) -> tuple[str, ...]:
     return _SWITCHED_OFF if scene.contacts else (*_FOR_CONTACT, *_SWITCHED_OFF)
 
 
-def _add_body(parent: Any, body: Body) -> Any:
+def _add_body(spec: Any, parent: Any, body: Body) -> Any:
     moments, iquat = _principal_axes(body.inertia_array)
     x, y, z, w = body.quaternion
+    if body.solids:
+        added = parent.add_body(name=body.name, pos=body.position, quat=(w, x, y, z))
+        add_solids(mujoco, spec, added, body)
+        return added
     return parent.add_body(
         name=body.name,
         pos=body.position,

@@ -19,6 +19,7 @@ def mjcf(spec: Any, integrator: str, switched_off: Iterable[str]) -> str:
         integrator=integrator,
     )
     SubElement(element, "flag", dict.fromkeys(switched_off, "disable"))
+    _add_meshes(root, spec.meshes)
     world = SubElement(root, "worldbody")
     _add_geoms(world, spec.worldbody)
     for body in spec.worldbody.bodies:
@@ -37,14 +38,15 @@ def _add_body(parent: Element, body: Any) -> None:
     element = SubElement(
         parent, "body", name=body.name, pos=_digits(body.pos), quat=_digits(body.quat), simple=simple
     )
-    SubElement(
-        element,
-        "inertial",
-        pos=_digits(body.ipos),
-        quat=_digits(body.iquat),
-        mass=_digits(body.mass),
-        diaginertia=_digits(body.inertia),
-    )
+    if body.explicitinertial:
+        SubElement(
+            element,
+            "inertial",
+            pos=_digits(body.ipos),
+            quat=_digits(body.iquat),
+            mass=_digits(body.mass),
+            diaginertia=_digits(body.inertia),
+        )
     for joint in body.joints:
         _add_joint(element, joint)
     _add_geoms(element, body)
@@ -63,7 +65,7 @@ def _add_joint(parent: Element, joint: Any) -> None:
 
 def _add_geoms(parent: Element, body: Any) -> None:
     for geom in body.geoms:
-        SubElement(
+        element = SubElement(
             parent,
             "geom",
             name=geom.name,
@@ -73,6 +75,27 @@ def _add_geoms(parent: Element, body: Any) -> None:
             quat=_digits(geom.quat),
             contype="0",
             conaffinity="0",
+        )
+        if body.explicitinertial or body.name == "world":
+            continue
+        element.set("group", str(geom.group))
+        element.set("density", _digits(geom.density))
+        if geom.typeinertia.name.endswith("SHELL"):
+            element.set("shellinertia", "true")
+        if geom.meshname:
+            element.set("mesh", geom.meshname)
+
+
+def _add_meshes(root: Element, meshes: Iterable[Any]) -> None:
+    for mesh in meshes:
+        asset = root.find("asset")
+        SubElement(
+            SubElement(root, "asset") if asset is None else asset,
+            "mesh",
+            name=mesh.name,
+            inertia=mesh.inertia.name.removeprefix("mjMESH_INERTIA_").lower(),
+            vertex=_digits(mesh.uservert),
+            face=" ".join(str(number) for number in mesh.userface),
         )
 
 

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..scenarios.parts import BUILT
+from .mujoco_solids import GROUP
 
 #: Sizes of a model that are no parts of it: room for numbers and names, trees that bodies make up.
 _SIZES = {
@@ -13,7 +14,7 @@ _SIZES = {
     "nsensordata", "ntree", "nv",
 }  # fmt: skip
 _CONSTRAINTS, _ACTUATORS, _SENSORS = {"neq", "ntendon"}, {"nu", "nactuator"}, {"nsensor"}
-_PICTURES = {"nlight", "ncam", "nmesh", "nmat", "ntex", "nskin"}
+_PICTURES = {"nlight", "ncam", "nmat", "ntex", "nskin"}
 
 
 def built(mujoco: Any, model: Any) -> dict[str, int]:
@@ -27,6 +28,7 @@ def built(mujoco: Any, model: Any) -> dict[str, int]:
         "joints": model.njnt,
         "coordinates": model.nv,
         "shapes": len(_distinct(model)),
+        "solids": int(np.count_nonzero(model.geom_group == GROUP)),
         "pairs": model.npair + _may_touch(model),
         "contact solver": int(solving),
         "constraints": _sum(sizes, _CONSTRAINTS) + int(model.jnt_limited.sum()),
@@ -57,10 +59,12 @@ def _distinct(model: Any) -> set[tuple[float, ...]]:
 
 
 def _only_seen(model: Any) -> int:
-    """Shapes that take part in no contact."""
+    """Shapes that take part in no contact and weigh nothing, and meshes that no solid has."""
     masked = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     touching = set(np.ravel([model.pair_geom1, model.pair_geom2]).tolist()) | set(np.flatnonzero(masked))
-    return int(model.ngeom) - len(touching)
+    solids = model.geom_group == GROUP
+    meshes = set(range(model.nmesh)) - set(model.geom_dataid[solids].tolist())
+    return len(set(np.flatnonzero(~solids)) - touching) + len(meshes)
 
 
 def _may_touch(model: Any) -> int:
@@ -72,7 +76,8 @@ def _may_touch(model: Any) -> int:
 
 def _others(model: Any, sizes: dict[str, int]) -> int:
     """Kinds of parts that have no name here, rotors and dry friction in joints, a medium all around."""
-    named = _SIZES | _CONSTRAINTS | _ACTUATORS | _SENSORS | _PICTURES
+    meshes = {name for name in sizes if name.startswith("nmesh")}
+    named = meshes | _SIZES | _CONSTRAINTS | _ACTUATORS | _SENSORS | _PICTURES
     medium = (model.opt.density, model.opt.viscosity, *model.opt.wind)
     surplus = (model.dof_armature, model.dof_frictionloss, model.body_gravcomp, medium)
     return sum(size > 0 for name, size in sizes.items() if name not in named) + sum(

@@ -3,7 +3,6 @@
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..reference.checked import Array
 
@@ -13,8 +12,10 @@ def inertial_frame(mujoco: Any, model: Any, i: int) -> tuple[Array, Array]:
     same = mujoco.mjtSameFrame(int(model.body_sameframe[i]))
     turned = same not in (mujoco.mjtSameFrame.mjSAMEFRAME_BODY, mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
     com = model.body_ipos[i] if same != mujoco.mjtSameFrame.mjSAMEFRAME_BODY else np.zeros(3)
-    x, y, z, w = model.body_iquat[i][[1, 2, 3, 0]] if turned else (0, 0, 0, 1)
-    return com.copy(), np.asarray(Rotation.from_quat((x, y, z, w)).as_matrix())
+    axes = np.eye(3).ravel()
+    if turned:  # by MuJoCo's own formula: a quaternion it found itself is of unit length only to 2e-15
+        mujoco.mju_quat2Mat(axes, model.body_iquat[i])
+    return com.copy(), axes.reshape(3, 3)
 
 
 def world(mujoco: Any, model: Any) -> dict[str, Any]:

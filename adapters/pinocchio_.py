@@ -18,6 +18,7 @@ from .pinocchio_forces import joint_forces
 from .pinocchio_json import model_json
 from .pinocchio_parts import built
 from .pinocchio_schemes import Advance, Mechanism, implicit_gyroscopic, rkmk4, semi_implicit_euler
+from .pinocchio_solids import NO_SHELL, inertia
 
 _ADVANCE: dict[str, Advance] = {
     "semi-implicit Euler": semi_implicit_euler,
@@ -31,13 +32,14 @@ class Pinocchio:
 
     name: ClassVar[str] = "pinocchio"
     schemes: ClassVar[tuple[Scheme, ...]] = (
-        Scheme("semi-implicit Euler", 1, "semi-implicit Euler", {}),
-        Scheme("implicit gyroscopic", 1, "implicit gyroscopic", {}),
+        Scheme("semi-implicit Euler", 1, "semi-implicit Euler", NO_SHELL),
+        Scheme("implicit gyroscopic", 1, "implicit gyroscopic", NO_SHELL),
         Scheme(
             "RKMK4",
             4,
             "RKMK4",
-            {
+            NO_SHELL
+            | {
                 "contact": "contact takes a whole step to act: only first-order schemes carry it",
                 "burning": "Poinsot's Runge-Kutta knows no time within a step at which to take a mass",
             },
@@ -48,6 +50,7 @@ class Pinocchio:
         "integrators": "Poinsot's own: Pinocchio gives accelerations, and q ⊕ dq",
         "free bodies": "at their centre of mass, a translation and then a ball joint, velocity in world axes "
         "(a FreeFlyer's, in body axes, is another and worse scheme)",
+        "solids": "their volume, centre and inertia are those of Coal, which Pinocchio comes with",
         "springs, dampers and forces": "joint forces of ours, taken where the scheme takes its accelerations",
         "contacts": "points, normals and gaps are Poinsot's own; the impulses are those of Pinocchio's "
         "projected Gauss-Seidel solver, at the end of each step",
@@ -233,8 +236,7 @@ def _model(scene: Scene) -> tuple[Any, list[Any], list[int]]:
         place = place * pin.SE3(turn, np.array(body.position))
         for joint in body.joints:
             at, place = _add_joint(model, at, place, joint, numbers)
-        inertia = pin.Inertia(body.mass, np.array(body.center_of_mass), body.inertia_array)
-        frames[body.name] = pin.Frame(body.name, at, place, pin.FrameType.BODY, inertia)
+        frames[body.name] = pin.Frame(body.name, at, place, pin.FrameType.BODY, inertia(pin, body))
         model.addFrame(frames[body.name])
     return (
         model,

@@ -15,6 +15,7 @@ from . import pybullet_contact as contact
 from . import pybullet_limits as limits
 from . import pybullet_parts as parts
 from . import pybullet_probes as probes
+from . import pybullet_solids as solids
 from .c_output import caught
 from .engine import Scheme, Setup, State
 from .pybullet_forces import pushes
@@ -22,7 +23,7 @@ from .pybullet_layout import inertial_frame, layout, of_ball, of_base, of_inerti
 from .pybullet_loading import load, quieted
 from .pybullet_reactions import Sensors
 from .pybullet_settings import SETTINGS
-from .pybullet_urdf import trees, urdf
+from .pybullet_urdf import document, trees
 
 with caught():  # PyBullet prints when it was built
     import pybullet as p
@@ -37,8 +38,8 @@ class PyBullet:
 
     name: ClassVar[str] = "pybullet"
     schemes: ClassVar[tuple[Scheme, ...]] = (
-        Scheme(_REDUCED, 1, "semi-implicit Euler", contact.NO_RIM),
-        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.LACKING | contact.NO_RIM),
+        Scheme(_REDUCED, 1, "semi-implicit Euler", contact.NO_RIM | solids.LACKING),
+        Scheme(_MAXIMAL, 1, "implicit gyroscopic", limits.LACKING | contact.NO_RIM | solids.LACKING),
     )
     features: ClassVar[frozenset[str]] = frozenset(FEATURES)
     settings: ClassVar[dict[str, str]] = SETTINGS
@@ -108,7 +109,7 @@ class PyBullet:
 
     def model_text(self) -> tuple[str, str]:
         """The model as URDF, with every digit; of several trees one document after the other."""
-        return "model.urdf", "\n".join(urdf(self._scene, tree) for tree in trees(self._scene))
+        return "model.urdf", document(self._scene)
 
     def close(self) -> None:
         """Let go of PyBullet's worlds."""
@@ -144,6 +145,7 @@ class _World:
         uids = {load(p, client, scene, tree, maximal): tree for tree in trees(scene)}
         links = dict(named for uid in uids for named in quieted(p, client, uid))
         self.at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
+        solids.touch_nothing(p, client, scene, self.at.bodies)
         self._pushes = pushes(p, client, scene, self.at, dt)
         self._pairs = contact.connect(p, client, scene, self.at.bodies) if scene.contacts else []
         self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
@@ -223,7 +225,7 @@ class _World:
         for body, place, center, axes in bodies:
             mass, _, moments, *_ = p.getDynamicsInfo(*place, self.client)
             values |= of_inertia(body.name, mass, moments, center, axes)
-        counted = parts.built(p, self.client, self._maximal)
+        counted = parts.built(p, self.client, self._maximal, self.scene)
         return {**values, **contact.told(p, self.client, self.scene, self._pairs), **counted}
 
     def _batch(self, size: int) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 from ..scenarios.body import IDENTITY
 from ..scenarios.scene import Scene
 from . import pybullet_limits as limits
+from . import pybullet_solids as solids
 from .c_output import caught
 from .pybullet_layout import Place
 from .pybullet_urdf import urdf
@@ -16,10 +17,12 @@ from .pybullet_urdf import urdf
 
 def load(p: Any, client: int, scene: Scene, tree: list[int], maximal: bool) -> int:
     """Load one tree, its joints at zero and its base at the origin; PyBullet's number for it."""
-    flags = p.URDF_USE_INERTIA_FROM_FILE
+    flags = solids.flags(p, scene, tree)
     with tempfile.TemporaryDirectory() as folder, caught() as said:
         path = Path(folder) / "model.urdf"  # never the same folder: PyBullet remembers files by name
         path.write_text(urdf(scene, tree))
+        for name, text in solids.meshes(scene, tree).items():
+            path.with_name(name).write_text(text)
         try:
             uid = p.loadURDF(str(path), useMaximalCoordinates=maximal, flags=flags, physicsClientId=client)
         except p.error:

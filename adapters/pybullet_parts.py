@@ -14,8 +14,12 @@ from ..scenarios.scene import Scene
 from .pybullet_probes import Change
 
 
-def built(p: Any, client: int, maximal: bool) -> dict[str, int]:
-    """Parts of a world by the names of ``scenarios.parts``, each with ``built/`` in front."""
+def built(p: Any, client: int, maximal: bool, scene: Scene) -> dict[str, int]:
+    """Parts of a world by the names of ``scenarios.parts``, each with ``built/`` in front.
+
+    Those of its shapes that inertias are worked out from it does not tell from others: the scene does.
+    """
+    solids = sum(len(body.solids) for body in scene.bodies)
     uids = [p.getBodyUniqueId(i, client) for i in range(p.getNumBodies(client))]
     seen = sum(len(p.getVisualShapeData(uid, physicsClientId=client)) for uid in uids)
     # In maximal coordinates it does not tell its shapes, but gives each of them a picture.
@@ -26,7 +30,7 @@ def built(p: Any, client: int, maximal: bool) -> dict[str, int]:
         "bodies": sum(_weighing(p, client, uid) for uid in uids),
         "joints": len(moving),
         "coordinates": sum(moving),
-        "shapes": shapes,
+        "shapes": shapes - solids,
         "constraints": p.getNumConstraints(client),
         "pictures": seen - shapes + window,
         "others": sum(_idle(p, client, uid) for uid in uids),

@@ -7,5 +7,7 @@ SETTINGS = {
     "sleeping": "off",
     "springs and forces": "ours, handed over at the start of each step; PyBullet has neither",
     "batches": "without springs, dampers, forces and contacts up to 256 steps in one call, by numSubSteps",
+    "solids": "PyBullet is told their mass and centre and works out the moments; cylinders by "
+    "URDF_USE_IMPLICIT_CYLINDER (PyBullet's own give the moments of a box around them)",
     "contacts": "200 iterations, no tolerance, no correction of depths, no least speed of a bounce",
 }

@@ -11,6 +11,7 @@ from ..reference import quaternions
 from ..reference.checked import Array
 from ..scenarios.body import IDENTITY, Body, Joint
 from ..scenarios.scene import Scene
+from . import pybullet_solids as solids
 from .pybullet_shapes import shapes
 
 _TYPES = {"ball": "spherical", "hinge": "continuous", "slide": "prismatic"}
@@ -48,9 +49,17 @@ def urdf(scene: Scene, tree: list[int]) -> str:
     names = {scene.bodies[index].name: _link_name(scene, index) for index in tree}
     for index in tree:
         body = scene.bodies[index]
-        lines += _body(names[body.name], body, shapes(scene, index))
+        shaped = solids.lines(body, index, _origin) if body.solids else shapes(scene, index)
+        lines += _body(names[body.name], body, shaped)
         lines += _joints(index, body, names.get(body.parent or "", "ground"), names[body.name])
     return "\n".join([*lines, "</robot>", ""])
+
+
+def document(scene: Scene) -> str:
+    """The URDF of every tree, one after the other, and as comments the meshes that they name."""
+    every = [urdf(scene, tree) for tree in trees(scene)]
+    meshes = solids.meshes(scene, range(len(scene.bodies))).items()
+    return "\n".join([*every, *(f"<!-- {name}\n{text}-->\n" for name, text in meshes)])
 
 
 def principal_axes(inertia: Array) -> tuple[Array, Array]:
@@ -84,6 +93,10 @@ def roll_pitch_yaw(axes: Array) -> tuple[float, float, float]:
 
 def _body(name: str, body: Body, shaped: Iterable[str]) -> Iterator[str]:
     moments, axes = principal_axes(body.inertia_array)
+    if body.solids:
+        # PyBullet takes its own moments, along the axes of the inertial frame.
+        own = solids.axes(body)
+        moments, axes = np.zeros(3), axes if own is None else own
     return _link(name, body.mass, moments, _origin(body.center_of_mass, axes), shaped)
 
 

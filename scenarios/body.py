@@ -1,6 +1,7 @@
 """Rigid bodies and the joints that carry them, described once for every engine."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,6 +17,7 @@ from ..reference.checked import (
     unit_quaternion,
 )
 from ..reference.errors import InputError
+from .solid import Solid, together
 
 JointKind = Literal["free", "ball", "hinge", "slide"]
 Vector = tuple[float, float, float]
@@ -74,6 +76,9 @@ class Body:
     parent; none at all welds the body to it. ``position`` and ``quaternion`` place the body's
     frame in the parent's where every joint coordinate is zero; a body with a free joint has no
     such place, its coordinates say where it is.
+
+    With ``solids``, an engine is told of those alone and works out the rest: mass, centre of mass and
+    inertia are then what it must come to. `of_solids` makes such a body.
     """
 
     name: str
@@ -84,6 +89,7 @@ class Body:
     parent: str | None = None
     position: Vector = (0.0, 0.0, 0.0)
     quaternion: Quaternion = IDENTITY
+    solids: tuple[Solid, ...] = ()
 
     def __post_init__(self) -> None:
         positive(f"body {self.name!r} mass", self.mass)
@@ -116,6 +122,23 @@ class Body:
     def inertia_array(self) -> Array:
         """Inertia about the centre of mass, (3, 3) [kg m²], body axes."""
         return np.asarray(self.inertia, dtype=np.float64)
+
+
+def of_solids(
+    name: str,
+    solids: Sequence[Solid],
+    joints: tuple[Joint, ...],
+    position: Vector = (0.0, 0.0, 0.0),
+    quaternion: Quaternion = IDENTITY,
+) -> Body:
+    """A body made of ``solids``: mass, centre of mass and inertia as their closed forms add up to."""
+    mass, centre, inertia = together(solids)
+    x, y, z = centre.tolist()
+    (a, b, c), (d, e, f), (g, h, i) = inertia.tolist()
+    return Body(
+        name, mass, ((a, b, c), (d, e, f), (g, h, i)), joints, (x, y, z),
+        position=position, quaternion=quaternion, solids=tuple(solids),
+    )  # fmt: skip
 
 
 def diagonal(I1: float, I2: float, I3: float) -> Matrix:

@@ -1,23 +1,30 @@
-"""One rigid body that nothing turns: its exact motion, whatever its tensor and wherever its centre."""
+"""Rigid bodies that nothing turns: their exact motion, whatever their tensors and wherever their centres."""
 
 import numpy as np
 
 from ..reference import inertia, quaternions, torque_free
 from ..reference.checked import Array
+from .body import Body, Vector
 from .scene import Scene
-from .trajectory import Trajectory, of_one_body
+from .trajectory import Trajectory
 
 
 def truth(scene: Scene, t: Array) -> Trajectory:
-    """Motion of the scene's one body, on a free joint, at the times ``t`` (n,) [s]; it may fall."""
-    body = scene.bodies[0]
+    """Motion of the scene's bodies, each on a free joint, at the times ``t`` (n,) [s]; they may fall."""
     q0, v0 = np.array(scene.q0), np.array(scene.v0)
+    flights = [_flight(body, q0[q], v0[v], scene.gravity, t) for body, _, q, v in scene.slices()]
+    position, q, velocity, omega = (np.stack(part, axis=1) for part in zip(*flights, strict=True))
+    none = np.empty((len(t), 0))
+    return Trajectory(t, position, q, velocity, omega, none, none)
+
+
+def _flight(body: Body, q0: Array, v0: Array, gravity: Vector, t: Array) -> tuple[Array, Array, Array, Array]:
     q, omega = turning(body.inertia_array, q0[3:], v0[3:], t)
     centre = np.array(body.center_of_mass)
     velocity = v0[:3] + quaternions.rotated(q0[3:], np.cross(v0[3:], centre))
-    fallen = np.outer(t, scene.gravity)
+    fallen = np.outer(t, gravity)
     position = q0[:3] + quaternions.rotated(q0[3:], centre) + t[:, None] * (velocity + fallen / 2)
-    return of_one_body(t, position, q, velocity + fallen, omega)
+    return position, q, velocity + fallen, omega
 
 
 def turning(tensor: Array, q0: Array, omega0: Array, t: Array) -> tuple[Array, Array]:

@@ -47,6 +47,16 @@ def residual() -> Observable:
     return invariant("hinge residual", "1", apart, lambda scene, b: float(np.abs(b.omega).max()))
 
 
+def centre_residual() -> Observable:
+    """What centres of mass and their velocities differ from those that the hinges' angles and rates make."""
+
+    def apart(scene: Scene, a: Trajectory) -> Array:
+        made = motion(scene.bodies, a.t, a.joint_position, a.joint_velocity)
+        return np.concatenate([a.position - made.position, a.velocity - made.velocity], axis=2)
+
+    return invariant("centre residual", "m, m/s", apart, lambda scene, b: float(np.abs(b.position).max()))
+
+
 def _axes(bodies: Sequence[Body]) -> Array:
     return np.array([body.joints[0].axis for body in bodies])
 

@@ -8,6 +8,7 @@ PARTS: dict[str, str] = {
     "joints": "joints that move",
     "coordinates": "velocities that the engine steps",
     "shapes": "shapes that can touch",
+    "solids": "shapes that masses and inertias are worked out from",
     "pairs": "pairs of shapes that the engine may let touch",
     "contact solver": "1 where contacts or constraints are solved for",
     "constraints": "constraints beside joints",
@@ -30,6 +31,7 @@ def parts(scene: Scene) -> dict[str, int]:
         "joints": len(scene.joints),
         "coordinates": len(scene.v0),
         "shapes": len(shapes),
+        "solids": sum(len(body.solids) for body in scene.bodies),
         "pairs": len(scene.contacts),
         "contact solver": int(bool(scene.contacts)),
     }

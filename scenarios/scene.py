@@ -35,6 +35,10 @@ FEATURES: dict[str, str] = {
     "force": "forces that depend on where bodies are or how fast",
     "burning": "masses that fall while a scene runs",
     "reaction": "reactions of joints",
+    "solid": "masses and inertias that the engine works out from shapes",
+    "ellipsoid": "solid ellipsoids",
+    "shell": "hollow spheres that are all surface",
+    "hollow": "solids with a hollow",
 }
 
 #: What no scene gets unless a later feature names it, in words for the report.
@@ -134,6 +138,7 @@ class Scene:
     def features(self) -> frozenset[str]:
         """What an engine must have to build this scene: keys of ``FEATURES``."""
         found = {joint.kind for joint in self.joints}
+        solids = [solid for body in self.bodies for solid in body.solids]
         optional = {
             "weld": any(not body.joints for body in self.bodies),
             "tree": any(body.parent for body in self.bodies),
@@ -146,6 +151,10 @@ class Scene:
             "force": bool(self.forces),
             "burning": bool(self.burning),
             "reaction": bool(self.reactions),
+            "solid": bool(solids),
+            "ellipsoid": any(solid.form == "ellipsoid" for solid in solids),
+            "shell": any(solid.form == "shell" for solid in solids),
+            "hollow": any(solid.taken_away for solid in solids),
         }
         return frozenset(found | {name for name, present in optional.items() if present})
 
@@ -208,7 +217,7 @@ class Scene:
         plain["observables"] = [observable.name for observable in self.observables]
         if not self.reactions:  # unknown to the logs of before, which still say what their scene was
             del plain["reactions"]
-        return json.dumps(plain, default=lambda part: part.__dict__, sort_keys=True)
+        return json.dumps(plain, default=_plain, sort_keys=True)
 
     def _check(self) -> None:
         positive("duration", self.duration)
@@ -262,6 +271,10 @@ class Scene:
                     raise InputError(
                         f"contact {contact.name!r}: got body {name!r}, expected one of {', '.join(bodies)}"
                     )
+                if bodies[name].solids:
+                    raise InputError(
+                        f"contact {contact.name!r}: got body {name!r}, whose solids touch nothing"
+                    )
         pairs = [contact.name for contact in self.contacts]
         if len(set(pairs)) != len(pairs):
             raise InputError(f"contacts: got {pairs}, expected each pair once")
@@ -278,6 +291,11 @@ class Scene:
             raise InputError(
                 "reactions: got some beside contacts, forces or burning bodies; expected none of those"
             )
+
+
+def _plain(part: Any) -> dict[str, Any]:
+    """A part's fields; of a body without solids, as most are, none are named."""
+    return {name: value for name, value in part.__dict__.items() if name != "solids" or value}
 
 
 def every_scheme(rows: Mapping[str, tuple[float, ...]], like: str) -> dict[str, tuple[float, ...]]:

@@ -22,8 +22,8 @@ from poinsot.scenarios.registry import scenes
 #: What an engine does not tell, each for a reason that its file of parts gives.
 UNTOLD = {
     "mujoco": set(),
-    "pybullet": {"pairs", "contact solver", "sleeping"},
-    "pinocchio": {"sleeping", "pictures"},
+    "pybullet": {"pairs", "contact solver", "sleeping", "solids"},
+    "pinocchio": {"sleeping", "pictures", "solids"},
 }
 #: A hinge, a ball, a free body and what touches: each kind of thing that a wrong engine may add to.
 ARM, TOP, FREE, TOUCHING = (
