@@ -27,13 +27,14 @@ class Timing:
     """Wall time [s] of all ``steps`` of one cell, over its repeats, taken on the first ``timed`` of them.
 
     ``beat`` [s] is what a fixed piece of Python's own work took beside it: where it differs from one
-    cell to another, so did the machine.
+    cell to another, so did the machine. ``pinned`` tells whether the process could be kept on one core.
     """
 
     steps: int
     timed: int
     seconds: tuple[float, ...]
     beat: float = 0.0
+    pinned: bool = True
 
     @property
     def least(self) -> float:
@@ -71,7 +72,7 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
 
     Pinned to one core where the system allows it, garbage collection off.
     """
-    pin()
+    pinned = pin()
     steps = scene.samples * scene.steps_per_sample(dt)
     machine = engine()
     try:
@@ -82,7 +83,7 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
 
         def repeated() -> Timing:
             seconds = [_once(machine, scene, scheme, dt, stepped) * whole for _ in range(REPEATS)]
-            return Timing(steps, stepped, tuple(seconds), beat())
+            return Timing(steps, stepped, tuple(seconds), beat(), pinned)
 
         first = repeated()
         return first if first.spread <= SPREAD else min(first, repeated(), key=lambda timing: timing.spread)

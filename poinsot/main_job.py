@@ -220,13 +220,20 @@ def _quality(timings: Sequence[Timing]) -> list[str]:
         return []
     loose = sum(timing.spread > SPREAD for timing in timings)
     beats = [timing.beat for timing in timings]
-    said = (
+    said = [
         f"Timing: beside the cells, a fixed piece of work took {min(beats) * 1e3:.3g} to "
         f"{max(beats) * 1e3:.3g} ms, so fast was the machine; "
-    )
-    if not loose:
-        return [said + f"no cell's middle repeat took over {SPREAD:.0%} longer than its fastest."]
-    return [said + f"of {len(timings)} cells, {loose} spread by more than {SPREAD:.0%}, repeated or not."]
+        + (
+            f"of {len(timings)} cells, {loose} spread by more than {SPREAD:.0%}, repeated or not."
+            if loose
+            else f"no cell's middle repeat took over {SPREAD:.0%} longer than its fastest."
+        )
+    ]
+    if not all(timing.pinned for timing in timings):
+        said.append("Timing: this system keeps no process on one core, so that times spread more.")
+    if runner.cores() == 1:
+        said.append("Timing: there is one core, which whatever else runs here shares.")
+    return said
 
 
 def _own_step(record: CellRecord, records: Sequence[CellRecord]) -> bool:

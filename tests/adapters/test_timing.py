@@ -131,6 +131,12 @@ def test_the_middle_and_the_least_of_the_repeats():
     assert (found.least, found.median, found.as_row()["repeats"]) == (1.0, 2.5, 4)
 
 
+def test_a_timing_says_whether_it_was_pinned(monkeypatch):
+    assert timed(1e-2).pinned
+    monkeypatch.setattr(timing, "pin", lambda: False)
+    assert not timed(1e-2).pinned
+
+
 @pytest.mark.skipif(not hasattr(os, "sched_getaffinity"), reason="this system pins no process")
 def test_a_timed_process_stays_on_one_core():
     code = "import os; from poinsot.adapters.timing import pin; print(pin(), len(os.sched_getaffinity(0)))"

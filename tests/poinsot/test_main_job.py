@@ -1,0 +1,28 @@
+"""What a run says of itself beside its verdicts."""
+
+from dataclasses import replace
+
+import pytest
+from poinsot.adapters import runner
+from poinsot.adapters.timing import Timing
+
+from poinsot import main_job
+
+STEADY = Timing(100, 100, (1.0, 1.1, 1.2), beat=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("timings", "cores", "said"),
+    [
+        ([], 2, []),
+        ([STEADY], 2, ["no cell's middle repeat took over 20% longer"]),
+        ([STEADY, replace(STEADY, seconds=(1.0, 2.0, 2.0), beat=2e-3)], 2, ["of 2 cells, 1 spread by more"]),
+        ([replace(STEADY, pinned=False)], 2, ["took over 20%", "keeps no process on one core"]),
+        ([STEADY], 1, ["took over 20%", "there is one core"]),
+    ],
+)
+def test_how_far_timings_can_be_trusted_is_said(monkeypatch, timings, cores, said):
+    monkeypatch.setattr(runner, "cores", lambda: cores)
+    found = main_job._quality(timings)
+    assert len(found) == len(said)
+    assert all(words in sentence for words, sentence in zip(said, found, strict=True))
