@@ -1,4 +1,4 @@
-"""What there is to run, and how a run ended, in words for a terminal and as JSON."""
+"""What there is to run and to sweep, and how a run ended, in words for a terminal and as JSON."""
 
 import json
 from collections import Counter
@@ -8,6 +8,7 @@ from typing import Any
 
 from .adapters.declared import Declaration, declared
 from .adapters.engine import Scheme
+from .scenarios.families import FAMILIES
 from .scenarios.registry import scenes
 from .scenarios.scene import Scene
 
@@ -16,17 +17,20 @@ SHOWN = 12
 
 
 def as_json() -> str:
-    """Every scene and every engine as JSON."""
+    """Every scene, family and engine as JSON."""
     engines = declared()
     found = {
         "scenes": {name: _scene(scene, engines) for name, scene in scenes().items()},
+        "families": {
+            family.name: {"summary": family.summary, "values": family.values} for family in FAMILIES
+        },
         "engines": {engine.name: _engine(engine) for engine in engines},
     }
     return json.dumps(found, indent=1, ensure_ascii=False)
 
 
 def as_text() -> str:
-    """Every scene with its variants, and every engine, a few lines each."""
+    """Every scene with its variants, every family and every engine, a few lines each."""
     lines, engines = ["Scenes"], declared()
     for name, variants in _by_name().items():
         scene = variants[0]
@@ -41,6 +45,8 @@ def as_text() -> str:
             f"      needs {', '.join(needed)}; can run in {', '.join(able) or 'no engine'}",
             f"      leaves out {', '.join(left_out)}",
         ]
+    lines += ["", "Families, which `poinsot stability` sweeps"]
+    lines += [f"  {family.name}: {family.summary}" for family in FAMILIES]
     lines += ["", "Engines"]
     for engine in engines:
         lines.append(f"  {engine.name}{'' if engine.installed else ' (not installed)'}")

@@ -9,7 +9,7 @@ pytest.importorskip("mujoco")
 pytest.importorskip("pinocchio")
 pytest.importorskip("pybullet")
 
-from poinsot.adapters import mujoco_, pybullet_
+from poinsot.adapters import mujoco_
 from poinsot.adapters.engine import EngineError
 from poinsot.adapters.mujoco_ import MuJoCo
 from poinsot.adapters.observed import SAMPLES, Observed, observe
@@ -19,6 +19,7 @@ from poinsot.reference.errors import InputError
 from poinsot.reports.outcomes import Outcome, judged
 from poinsot.scenarios import extreme_tops
 from poinsot.scenarios.stiff_spring import on_spring
+from wrong_engines.stability import ClampedSpring
 
 SCENE = on_spring(1e4)
 #: Step [s] at which ωdt is 1.
@@ -99,17 +100,6 @@ def test_a_return_to_the_start_is_a_reset(engine, z):
     assert outcome(engine, z).outcome is Outcome.RESET
 
 
-class Clamped(PyBullet):
-    """Leaves PyBullet's clamp of velocities where it is by default."""
-
-    def build(self, scene, scheme, dt):
-        super().build(scene, scheme, dt)
-        client = self._world.client
-        for i in range(pybullet_.p.getNumBodies(client)):
-            uid = pybullet_.p.getBodyUniqueId(i, client)
-            pybullet_.p.changeDynamics(uid, -1, maxJointVelocity=100, physicsClientId=client)
-
-
 class ClampedSpin(Pinocchio):
     """Lets no component of a velocity above 50."""
 
@@ -121,12 +111,12 @@ class ClampedSpin(Pinocchio):
 
 @pytest.mark.parametrize("z", [2.1, 3.0, 100.0])
 def test_a_clamp_is_seen(z):
-    assert outcome(Clamped, z).outcome is Outcome.CLAMPED
+    assert outcome(ClampedSpring, z).outcome is Outcome.CLAMPED
 
 
 def test_a_clamp_that_is_not_met_is_none():
     for z, expected in ((1e-2, Outcome.ACCURATE), (1.9, Outcome.BOUNDED)):
-        assert outcome(Clamped, z).outcome is expected
+        assert outcome(ClampedSpring, z).outcome is expected
 
 
 def test_a_clamp_below_the_motion_itself_is_seen():
