@@ -21,11 +21,13 @@ import scipy
 from .checked import Array, finite, not_negative, number, positive, within
 from .errors import InputError
 from .heavy_top_constants import moments_of_a_top
+from .quaternions import cross
 
 _untyped: Any = scipy.optimize
 
 #: How far a direction's length may be from 1, and the angle to its rate from a right one [1].
 _TOLERANCE = 1e-9
+_UNIT, _UP = np.eye(3), np.array([0.0, 0.0, 1.0])
 
 
 class Rope(NamedTuple):
@@ -73,20 +75,17 @@ def accelerations(
     system = _moving(rope, gyroscope, gravity)
     n, n_rate = _direction("n", directions[0], rates[0])
     e, e_rate = _direction("e", directions[1], rates[1])
-    across_n, across_e = np.eye(3) - np.outer(n, n), np.eye(3) - np.outer(e, e)
+    along_n, along_e = n[:, None] * n, e[:, None] * e
+    across_n, across_e = _UNIT - along_n, _UNIT - along_e
     mixed = system.mixed * across_n @ across_e
     # The outer products leave the unknown parts of n̈ and ë across n and e; along them they are known.
-    matrix = np.block(
-        [
-            [system.rope * across_n + np.outer(n, n), mixed],
-            [mixed.T, system.axle * across_e + np.outer(e, e)],
-        ]
-    )
+    matrix = np.empty((6, 6))
+    matrix[:3, :3], matrix[:3, 3:] = system.rope * across_n + along_n, mixed
+    matrix[3:, :3], matrix[3:, 3:] = mixed.T, system.axle * across_e + along_e
     n_inward, e_inward = -(n_rate @ n_rate) * n, -(e_rate @ e_rate) * e
-    up = np.array([0.0, 0.0, 1.0])
-    on_n = across_n @ (-system.rope_weight * up - system.mixed * e_inward)
-    on_e = across_e @ (-system.axle_weight * up - system.mixed * n_inward)
-    gyroscopic = system.I3 * number("omega3", omega3) * np.cross(e, e_rate)
+    on_n = across_n @ (-system.rope_weight * _UP - system.mixed * e_inward)
+    on_e = across_e @ (-system.axle_weight * _UP - system.mixed * n_inward)
+    gyroscopic = system.I3 * number("omega3", omega3) * cross(e, e_rate)
     parts = np.linalg.solve(matrix, np.concatenate([on_n, on_e + gyroscopic]))
     return n_inward + parts[:3], e_inward + parts[3:]
 

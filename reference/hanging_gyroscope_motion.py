@@ -47,12 +47,12 @@ def motion(
         turns, omega = _parts(state)
         axes, axis_rates = (
             quaternions.rotated(turns, _AXIS),
-            quaternions.rotated(turns, np.cross(omega, _AXIS)),
+            quaternions.rotated(turns, quaternions.cross(omega, _AXIS)),
         )
         omega3 = omega[:, 2:]
         (n, e), (n_rate, e_rate) = axes, axis_rates
         curving = accelerations(rope, gyroscope, gravity, (n, e), (n_rate, e_rate), float(omega3[1, 0]))
-        turned = np.cross(axes, np.stack(curving)) + omega3 * axis_rates
+        turned = quaternions.cross(axes, np.array(curving)) + omega3 * axis_rates
         change = quaternions.rotated(quaternions.conjugate(turns), turned)
         return np.concatenate([quaternions.rate(turns, omega).ravel(), change.ravel()])
 

@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from poinsot.reference import equations_of_motion, quaternions
+from poinsot.reference import equations_of_motion, hanging_gyroscope_motion, quaternions
 from poinsot.reference import hanging_gyroscope as closed_form
 from poinsot.scenarios import hanging_gyroscope
 from poinsot.scenarios.body import diagonal
 from poinsot.scenarios.registry import scenes
 
-HANGING = scenes()["hanging_gyroscope"]
+HANGING = scenes()["hanging_gyroscope[steady]"]
+
+SWINGING = scenes()["hanging_gyroscope[swinging]"]
 
 
 def test_its_tilt_and_spin_are_those_of_the_closed_form():
@@ -82,3 +84,45 @@ def test_an_engine_whose_rope_has_no_mass(failed):
             super().build(replace(scene, bodies=(light, wheel)), scheme, dt)
 
     assert ("truth", "precession of the rope") in failed(Massless, HANGING)
+
+
+def test_the_swings_rates_are_the_truths_own(own_rate):
+    for name, rate in zip(("rope", "axle"), hanging_gyroscope.SWING_RATES, strict=True):
+        found = own_rate(SWINGING, f"precession of the {name}", samples=21)
+        assert found == pytest.approx(rate, rel=1e-8)
+
+
+def test_the_swing_is_integrated_far_below_what_the_finest_steps_are_off_by():
+    t = SWINGING.sample_times()
+    motion = SWINGING.truth(SWINGING, t)
+    start = motion.quaternion[0], motion.omega[0]
+    coarser = hanging_gyroscope_motion.motion(
+        *hanging_gyroscope.system(), hanging_gyroscope.G, *start, t, 1e-13
+    )
+    constants = dict(zip((o.name for o in SWINGING.observables), SWINGING.errors["RKMK4"], strict=True))
+    finest = min(SWINGING.ladder(4)) ** 4
+    found = zip(("orientation", "omega"), (motion.quaternion, motion.omega), coarser, strict=True)
+    for name, ours, other in found:
+        assert np.abs(ours - other).max() < 1e-3 * constants[name] * finest
+    # Nor does the rope spin, whose moment about its axis the equations leave out.
+    assert np.abs(motion.omega[:, 0, 2]).max() < 1e-13
+
+
+def test_an_engine_whose_wheel_keeps_that_one_precession_with_other_moments(failed):
+    """Moments that keep I3ω3Ω − I1Ω²cosβ, which dL/dt asks for, keep the steady precession and no other."""
+    mujoco_ = pytest.importorskip("poinsot.adapters.mujoco_")
+    slower = hanging_gyroscope.OMEGA * np.cos(hanging_gyroscope.BETA) / hanging_gyroscope.OMEGA3
+
+    class Deceived(mujoco_.MuJoCo):
+        """Takes the wheel for one with a larger moment across its axle."""
+
+        def build(self, scene, scheme, dt):
+            rope, wheel = scene.bodies
+            more = 0.2 * hanging_gyroscope.ACROSS
+            across, axial = hanging_gyroscope.ACROSS + more, hanging_gyroscope.AXIAL + more * slower
+            wheel = replace(wheel, inertia=diagonal(across, across, axial))
+            super().build(replace(scene, bodies=(rope, wheel)), scheme, dt)
+
+    steady = failed(Deceived, HANGING, "RKMK4")
+    assert not [name for kind, name in steady if kind == "order" or name.endswith("limit")]
+    assert {("truth", "orientation"), ("truth", "tilts"), ("order", "omega")} <= failed(Deceived, SWINGING)
