@@ -140,7 +140,7 @@ def _write_views(file: Container, scene: Scene, trajectory: Trajectory, times: l
     file.messages(
         file.channel("/scene", "foxglove.SceneUpdate", descriptor_set(SceneUpdate), {}),
         [int(times[0])],
-        [log_views.boxes(scene, int(times[0]))],
+        [log_views.update(scene, trajectory, int(times[0]))],
     )
     file.messages(
         file.channel("/tf", "foxglove.FrameTransform", descriptor_set(FrameTransform), {}),

@@ -23,11 +23,11 @@ _STATE = {
         (8, "reaction", "double[]"),
     )
 }
-_FOXGLOVE = {
+_GEOMETRY = {
     "Vector3": ((1, "x", "double"), (2, "y", "double"), (3, "z", "double")),
     "Quaternion": ((1, "x", "double"), (2, "y", "double"), (3, "z", "double"), (4, "w", "double")),
-    "Pose": ((1, "position", "foxglove.Vector3"), (2, "orientation", "foxglove.Quaternion")),
-    "Color": ((1, "r", "double"), (2, "g", "double"), (3, "b", "double"), (4, "a", "double")),
+}
+_FRAME = {
     "FrameTransform": (
         (1, "timestamp", "google.protobuf.Timestamp"),
         (2, "parent_frame_id", "string"),
@@ -35,23 +35,65 @@ _FOXGLOVE = {
         (4, "translation", "foxglove.Vector3"),
         (5, "rotation", "foxglove.Quaternion"),
     ),
+}
+_SCENE = {
+    "Pose": ((1, "position", "foxglove.Vector3"), (2, "orientation", "foxglove.Quaternion")),
+    "Color": ((1, "r", "double"), (2, "g", "double"), (3, "b", "double"), (4, "a", "double")),
+    "KeyValuePair": ((1, "key", "string"), (2, "value", "string")),
+    "Point3": ((1, "x", "double"), (2, "y", "double"), (3, "z", "double")),
     "CubePrimitive": (
         (1, "pose", "foxglove.Pose"),
         (2, "size", "foxglove.Vector3"),
         (3, "color", "foxglove.Color"),
+    ),
+    "SpherePrimitive": (
+        (1, "pose", "foxglove.Pose"),
+        (2, "size", "foxglove.Vector3"),
+        (3, "color", "foxglove.Color"),
+    ),
+    "CylinderPrimitive": (
+        (1, "pose", "foxglove.Pose"),
+        (2, "size", "foxglove.Vector3"),
+        (3, "bottom_scale", "double"),
+        (4, "top_scale", "double"),
+        (5, "color", "foxglove.Color"),
+    ),
+    # Their type, field 1, is left at its 0: a strip.
+    "LinePrimitive": (
+        (2, "pose", "foxglove.Pose"),
+        (3, "thickness", "double"),
+        (4, "scale_invariant", "bool"),
+        (5, "points", "foxglove.Point3[]"),
+        (6, "color", "foxglove.Color"),
+    ),
+    "TriangleListPrimitive": (
+        (1, "pose", "foxglove.Pose"),
+        (2, "points", "foxglove.Point3[]"),
+        (3, "color", "foxglove.Color"),
+        (5, "indices", "fixed32[]"),
     ),
     "SceneEntity": (
         (1, "timestamp", "google.protobuf.Timestamp"),
         (2, "frame_id", "string"),
         (3, "id", "string"),
         (5, "frame_locked", "bool"),
+        (6, "metadata", "foxglove.KeyValuePair[]"),
         (8, "cubes", "foxglove.CubePrimitive[]"),
+        (9, "spheres", "foxglove.SpherePrimitive[]"),
+        (10, "cylinders", "foxglove.CylinderPrimitive[]"),
+        (11, "lines", "foxglove.LinePrimitive[]"),
+        (12, "triangles", "foxglove.TriangleListPrimitive[]"),
     ),
     "SceneUpdate": ((2, "entities", "foxglove.SceneEntity[]"),),
 }
 
 _Field = descriptor_pb2.FieldDescriptorProto
-_SCALARS = {"double": _Field.TYPE_DOUBLE, "string": _Field.TYPE_STRING, "bool": _Field.TYPE_BOOL}
+_SCALARS = {
+    "double": _Field.TYPE_DOUBLE,
+    "string": _Field.TYPE_STRING,
+    "bool": _Field.TYPE_BOOL,
+    "fixed32": _Field.TYPE_FIXED32,
+}
 
 
 def _file(name: str, package: str, syntax: str, messages: dict[str, Any], imports: tuple[str, ...]) -> Any:
@@ -78,9 +120,11 @@ _pool = descriptor_pool.DescriptorPool()
 _pool.AddSerializedFile(timestamp_pb2.DESCRIPTOR.serialized_pb)
 # proto2, because there a scalar that was set is written even when it is zero.
 _pool.Add(_file("poinsot/state.proto", "poinsot", "proto2", _STATE, ()))
-_pool.Add(
-    _file("foxglove/views.proto", "foxglove", "proto3", _FOXGLOVE, ("google/protobuf/timestamp.proto",))
-)
+_STAMP, _PLACES = "google/protobuf/timestamp.proto", "foxglove/geometry.proto"
+_pool.Add(_file(_PLACES, "foxglove", "proto3", _GEOMETRY, ()))
+# Apart from each other, because each channel of a log holds its own file twice.
+_pool.Add(_file("foxglove/frame.proto", "foxglove", "proto3", _FRAME, (_STAMP, _PLACES)))
+_pool.Add(_file("foxglove/scene.proto", "foxglove", "proto3", _SCENE, (_STAMP, _PLACES)))
 
 
 def _message(name: str) -> Any:

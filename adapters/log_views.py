@@ -1,26 +1,25 @@
-"""What a viewer draws of a log: where each body is, now and then, and a box for each.
+"""What a viewer draws of a log: where each body is, now and then, and the shapes of each.
 
 Foxglove and Rerun know these messages by name. Nothing here is read back by Poinsot.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial.transform import Rotation
 
-from ..scenarios.body import Body
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
+from . import log_shapes
+from .log_primitives import Part, xyz
 from .log_schema import FrameTransform, SceneUpdate
 
 #: A viewer's frames: up to so many a simulated second, and in a log, and transforms in all.
 FRAMES_PER_SECOND, FRAMES, TRANSFORMS = 50, 300, 3000
-#: A plate has no thickness and would not be seen: no edge is thinner than this part of the longest.
-THINNEST = 0.02
+#: No shape is wider than this makes it [m].
+FARTHEST = 1e15
 WORLD = "world"
-_COLORS = ((0.13, 0.40, 0.67), (0.84, 0.38, 0.20), (0.20, 0.58, 0.38), (0.55, 0.34, 0.64))
 
 
 def frames(t: npt.NDArray[np.float64], bodies: int) -> slice:
@@ -40,41 +39,39 @@ def transforms(scene: Scene, motion: Trajectory, times: list[int]) -> Iterator[b
                 timestamp=_timestamp(time),
                 parent_frame_id=WORLD,
                 child_frame_id=body.name,
-                translation=_xyz(position),
-                rotation=_xyz(quaternion),
+                translation=xyz(position),
+                rotation=xyz(quaternion),
             )
             yield message.SerializeToString()
 
 
-def boxes(scene: Scene, time: int) -> bytes:
-    """Encoded ``foxglove.SceneUpdate``: a box of the mass and inertia of each body, fixed to it."""
-    entities = [
-        {
-            "timestamp": _timestamp(time),
-            "frame_id": body.name,
-            "id": body.name,
-            "frame_locked": True,
-            "cubes": [_cube(body, _COLORS[place % len(_COLORS)])],
-        }
-        for place, body in enumerate(scene.bodies)
-    ]
+def update(scene: Scene, motion: Trajectory, time: int) -> bytes:
+    """Encoded ``foxglove.SceneUpdate``: the shapes of each body, fixed to it, and of the world."""
+    # A log keeps whatever an engine gave; what is not a place is drawn at the origin.
+    places = np.clip(np.nan_to_num(motion.position), -FARTHEST, FARTHEST)
+    entities = []
+    for place, body in enumerate(scene.bodies):
+        words, parts = log_shapes.of_body(scene, place, places)
+        told = {"mass": f"{body.mass:g} kg", "drawn as": words}
+        entities.append(_entity(body.name, time, parts, told))
+    world = log_shapes.of_world(scene, places)
+    if world:
+        entities.append(_entity(WORLD, time, world, {"drawn as": "planes that are touched"}))
     return bytes(SceneUpdate(entities=entities).SerializeToString())
 
 
-def _cube(body: Body, color: tuple[float, float, float]) -> dict[str, Any]:
-    moments, axes = np.linalg.eigh(body.inertia_array)
-    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-    # A solid box with edges a, b, c has the moment m (b² + c²)/12 about the axis along a, and so on.
-    edges = np.sqrt(np.maximum(6 * (moments.sum() - 2 * moments) / body.mass, 0.0))
+def _entity(name: str, time: int, parts: Sequence[Part], told: Mapping[str, str]) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    for field, part in parts:
+        fields.setdefault(field, []).append(part)
     return {
-        "pose": {"position": {}, "orientation": _xyz(Rotation.from_matrix(axes).as_quat())},
-        "size": _xyz(np.maximum(edges, THINNEST * edges.max())),
-        "color": dict(zip("rgba", (*color, 1.0), strict=True)),
+        "timestamp": _timestamp(time),
+        "frame_id": name,
+        "id": name,
+        "frame_locked": True,
+        "metadata": [{"key": key, "value": value} for key, value in told.items()],
+        **fields,
     }
-
-
-def _xyz(values: npt.NDArray[np.float64]) -> dict[str, float]:
-    return dict(zip("xyzw", values.tolist(), strict=False))
 
 
 def _timestamp(time: int) -> dict[str, int]:
