@@ -16,6 +16,8 @@ from ..scenarios.trajectory import Trajectory
 ACCURATE = 0.05
 #: A clamp holds a speed at one value: so long a part of the run, to rounding, and so far from the truth's.
 HELD, ROUNDING, APART = 0.5, 1e-12, 0.1
+#: What has died down to this part of the truth's largest may stay at one value for want of smaller numbers.
+NEGLIGIBLE = 1e-9
 #: A clamp is met at once, not approached: from one sample to the next a speed changes by at least this part.
 ABRUPT = 1e-6
 
@@ -58,7 +60,7 @@ class Found:
     """An outcome with its numbers, each ``None`` where there is none or it is not finite.
 
     ``error`` is the largest, relative to each observable's size; ``energy_most`` and ``energy_last`` are in
-    units of the exact motion's energy. ``said``: the engine's own words.
+    units of the start's energy. ``said``: the engine's own words.
     """
 
     outcome: Outcome
@@ -75,7 +77,7 @@ def judged(scene: Scene, observed: Observed) -> Found:
         return Found(Outcome.REFUSED, said=observed.said)
     with np.errstate(all="ignore"):
         truth = scene.truth(scene, motion.t)
-        energies = mechanics.energy(scene, motion) / mechanics.energy(scene, truth)
+        energies = mechanics.energy(scene, motion) / mechanics.energy(scene, truth)[0]
         error = _error(scene, motion, truth)
         # States that end before the run does: the engine's arithmetic failed, so that there are none.
         ended = len(motion.t) > SAMPLES
@@ -123,8 +125,10 @@ def _reset(motion: Trajectory, truth: Trajectory, energies: Array) -> bool:
         return True
     moving = np.asarray(_speeds(truth).any(axis=1))
     still = np.asarray(~_speeds(motion).any(axis=1) & moving)
-    # What is damped away gets there by and by; below a tenth of its energy it may well be at rest next.
-    stopped = still[1:] & (energies[:-1] > 0.1)
+    # What is damped away gets there by and by; below a tenth of its energy it may well be at rest next. A
+    # damper may stop a body at once, but not where all its joints are at zero.
+    zero = np.asarray(~motion.joint_position.any(axis=1))
+    stopped = still[1:] & zero[1:] & (energies[:-1] > 0.1)
     everything = np.hstack([_speeds(motion), _places(motion)])
     as_at_start = np.asarray((everything == everything[0]).all(axis=1))
     stays = as_at_start[1:] & as_at_start[:-1] & moving[1:]
@@ -144,7 +148,7 @@ def _clamped(motion: Trajectory, truth: Trajectory) -> bool:
         value = speed[-1]
         elsewhere = np.flatnonzero(np.abs(speed - value) > ROUNDING * value)
         first = int(elsewhere[-1]) + 1 if elsewhere.size else 0
-        held = n - first >= HELD * n and value > 0
+        held = n - first >= HELD * n and value > NEGLIGIBLE * exact.max()
         abrupt = first <= 1 or abs(speed[first - 1] - value) > ABRUPT * value
         far = np.mean(np.abs(exact[first:] - value) > APART * value) > HELD
         if held and abrupt and far:

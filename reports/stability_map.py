@@ -55,7 +55,8 @@ def _cell(point: Mapping[str, Any], values: Sequence[float], steps: Sequence[flo
     x, y = _left(values.index(point["value"])), _top(steps.index(point["dt"]), steps)
     told = f"{point['value']:g}, dt {point['dt']:g} s: {outcome.value}"
     if point["error"] is not None:
-        told += f"; error {number(point['error'])}, energy up to {number(point['energy_most'])} of the exact"
+        told += f"; error {number(point['error'])}, energy up to {number(point['energy_most'])}"
+        told += f" and at the end {number(point['energy_last'])} of the start's"
     if point["said"]:
         told += f"; {printable(point['said'])[:SAID]}"
     return Markup(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from ..reference.errors import InputError
 from ..reference.spelling import nearest
 from .extreme_chains import heavy_inside, heavy_outside
+from .extreme_damper import stiff_damper
 from .extreme_gimbal import near_gimbal_lock
 from .extreme_tops import inertia_ratio, near_separatrix, near_symmetric, spin
 from .scene import Scene
@@ -56,6 +57,16 @@ FAMILIES = (
         _decades(-6, 0, 2),
         _on_spring,
         _OSCILLATOR,
+    ),
+    Family(
+        "stiff_damper",
+        "A mass of 1 kg thrown into ever stiffer dampers.",
+        "c [N s/m]",
+        _decades(1, 8),
+        _decades(-8, 1, 2),
+        stiff_damper,
+        "A damper taken explicitly lets the velocity grow past c dt/m = 2, Runge-Kutta past 2.785; taken "
+        "implicitly, at no step.",
     ),
     Family(
         "heavy_outside",

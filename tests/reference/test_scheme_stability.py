@@ -5,7 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from poinsot.reference.errors import InputError
-from poinsot.reference.scheme_stability import largest_stable_step, step_factor
+from poinsot.reference.scheme_stability import (
+    decay_factor,
+    largest_decaying_step,
+    largest_stable_step,
+    step_factor,
+)
 from poinsot.reference.schemes import SCHEMES, linear_motion
 
 
@@ -90,3 +95,39 @@ def test_refuses_other_schemes_and_signs():
             call("rk4", -1.0)
     with pytest.raises(InputError):
         largest_stable_step("rk4", 0.0)
+
+
+@given(st.sampled_from(SCHEMES), st.floats(1e-3, 4))
+def test_decay_is_what_a_damper_does_in_a_step(scheme, z):
+    _, v = linear_motion(scheme, [[1.0]], [[0.0]], [0.3], [1.0], z, [1], damping=[[1.0]])
+    assert decay_factor(scheme, z) == pytest.approx(v[0, 0], rel=1e-13, abs=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "limit"),
+    [
+        ("semi_implicit_euler", 2.0),
+        ("explicit_euler", 2.0),
+        ("rk4", 2.7852935634052816),
+        ("implicit_damping", np.inf),
+        ("implicit_euler", np.inf),
+        ("implicit_midpoint", np.inf),
+    ],
+)
+def test_decay_ends_where_growth_begins(scheme, limit):
+    assert largest_decaying_step(scheme, 1.0) == pytest.approx(limit, rel=1e-15, abs=0)
+    assert largest_decaying_step(scheme, 50.0) == pytest.approx(limit / 50, rel=1e-15, abs=0)
+    if limit < np.inf:
+        assert (
+            abs(decay_factor(scheme, limit * (1 - 1e-9))) < 1 < abs(decay_factor(scheme, limit * (1 + 1e-9)))
+        )
+    else:
+        assert abs(decay_factor(scheme, 1e9)) < 1
+
+
+def test_decay_refuses_other_schemes_and_signs():
+    for call in (decay_factor, largest_decaying_step):
+        with pytest.raises(InputError, match="rk4"):
+            call("leapfrog", 1.0)
+        with pytest.raises(InputError):
+            call("rk4", -1.0)

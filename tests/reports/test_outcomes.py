@@ -17,7 +17,7 @@ from poinsot.adapters.pinocchio_ import Pinocchio
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.reference.errors import InputError
 from poinsot.reports.outcomes import Outcome, judged
-from poinsot.scenarios import extreme_tops
+from poinsot.scenarios import extreme_damper, extreme_tops
 from poinsot.scenarios.stiff_spring import on_spring
 from wrong_engines.stability import ClampedSpring
 
@@ -138,6 +138,28 @@ def test_steady_spin_is_no_clamp():
             found = judged(scene, observe(scene, engine, chosen, dt, 4000))
             assert found.outcome is not Outcome.CLAMPED
             assert found.outcome is not Outcome.RESET
+
+
+def test_what_dies_down_is_neither_clamped_nor_reset():
+    scene = extreme_damper.stiff_damper(1e6)
+    # At c dt/m = 1 semi-implicit Euler stops it in one step; taken implicitly, it ends in the least numbers.
+    for scheme, dt in (("Euler", 1e-6), ("implicit", 10.0), ("implicitfast", 10.0), ("implicit", 1e-4)):
+        chosen = next(s for s in MuJoCo.schemes if s.name == scheme)
+        found = judged(scene, observe(scene, MuJoCo, chosen, dt, 4000))
+        assert found.outcome in (Outcome.ACCURATE, Outcome.BOUNDED)
+        assert found.energy_last < 1e-9
+
+
+@pytest.mark.parametrize("dt", [1e-5, 1e-2])
+def test_a_reset_of_a_damped_mass_is_seen(dt):
+    scene = extreme_damper.stiff_damper(1e6)
+    assert judged(scene, observe(scene, Resetting, MuJoCo.schemes[0], dt, 4000)).outcome is Outcome.RESET
+
+
+@pytest.mark.parametrize("dt", [0.3, 30.0])
+def test_a_reset_of_a_free_body_is_seen(dt):
+    scene = extreme_tops.spin(100.0)
+    assert judged(scene, observe(scene, Resetting, MuJoCo.schemes[0], dt, 4000)).outcome is Outcome.RESET
 
 
 class Speechless(Pinocchio):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from poinsot.reference import normal_modes, schemes, top_schemes
 from poinsot.reference.errors import InputError
-from poinsot.scenarios import extreme_chains, extreme_gimbal, extreme_tops, mechanics
+from poinsot.scenarios import extreme_chains, extreme_damper, extreme_gimbal, extreme_tops, mechanics
 from poinsot.scenarios.families import FAMILIES, select
 from poinsot.scenarios.stiff_spring import on_spring
 from scipy.integrate import solve_ivp
@@ -28,10 +28,13 @@ def test_truth_starts_as_the_scene_does_and_keeps_its_energy(family):
     for value in (family.values[0], family.values[-1]):
         scene = family.scene(value)
         motion = scene.truth(scene, np.linspace(0.0, scene.duration, 50))
+        assert motion.first_not_finite() is None
         energy = mechanics.energy(scene, motion)
+        if "damper" in scene.features:
+            assert (np.diff(energy) < 0).all()
+            continue
         # Near gimbal lock ω comes from hinge rates that are larger by the inverse distance.
         np.testing.assert_allclose(energy, energy[0], rtol=1e-9)
-        assert motion.first_not_finite() is None
 
 
 def test_mass_ratios_move_as_their_equations_say():
@@ -104,6 +107,19 @@ def test_theory_of_the_spring_is_that_of_its_step_matrix():
         for share, grows in ((0.999, False), (1.001, True)):
             q, _ = schemes.linear_motion(scheme, [[1.0]], [[1e6]], scene.q0, scene.v0, share * limit, [3000])
             assert (np.abs(q).max() > 1e4 * abs(scene.q0[0])) == grows
+
+
+def test_damper_brings_to_rest_a_reach_from_the_start():
+    scene = extreme_damper.stiff_damper(1e3)
+    t = np.linspace(0.0, scene.duration, 400)
+    truth = scene.truth(scene, t)
+    speed = truth.velocity[:, 0, 0]
+    np.testing.assert_allclose(np.gradient(truth.position[:, 0, 0], t)[1:-1], speed[1:-1], rtol=2e-3, atol=1e-9)
+    np.testing.assert_allclose(np.log(speed / speed[0]), -1e3 * t, rtol=1e-12)
+    assert truth.joint_position[-1, 0] == pytest.approx(extreme_damper.REACH / 2, rel=1e-12)
+    assert scene.stable_step(scene, "implicit gyroscopic") == np.inf
+    assert scene.stable_step(scene, "semi-implicit Euler") == 2e-3
+    assert scene.stable_step(scene, "another") is None
 
 
 def test_no_body_beyond_a_plate():
