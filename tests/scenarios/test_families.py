@@ -114,7 +114,9 @@ def test_damper_brings_to_rest_a_reach_from_the_start():
     t = np.linspace(0.0, scene.duration, 400)
     truth = scene.truth(scene, t)
     speed = truth.velocity[:, 0, 0]
-    np.testing.assert_allclose(np.gradient(truth.position[:, 0, 0], t)[1:-1], speed[1:-1], rtol=2e-3, atol=1e-9)
+    np.testing.assert_allclose(
+        np.gradient(truth.position[:, 0, 0], t)[1:-1], speed[1:-1], rtol=2e-3, atol=1e-9
+    )
     np.testing.assert_allclose(np.log(speed / speed[0]), -1e3 * t, rtol=1e-12)
     assert truth.joint_position[-1, 0] == pytest.approx(extreme_damper.REACH / 2, rel=1e-12)
     assert scene.stable_step(scene, "implicit gyroscopic") == np.inf
