@@ -180,7 +180,7 @@ def inconsistency(intervals: Intervals | None, told: Trajectory) -> float:
     scale = {
         "position": float(np.abs(told.position).max()),
         "orientation": 1.0,
-        "velocity": float(np.abs(told.velocity).max()),
+        "velocity": _sweeping(told),
         "omega": float(np.abs(told.omega).max()),
     }
     turns = 1 + float(np.abs(told.joint_position).max(initial=0.0))
@@ -190,13 +190,20 @@ def inconsistency(intervals: Intervals | None, told: Trajectory) -> float:
     return max(parts)
 
 
+def _sweeping(motion: Trajectory) -> float:
+    """Speed [m/s] that velocities are rounded as: engines take them about the world's origin."""
+    swept = np.abs(motion.omega).max() * np.abs(motion.position).max()
+    return float(max(np.abs(motion.velocity).max(), swept))
+
+
 def _elsewhere(cell: Cell) -> float:
     told, truth = cell.trajectory, cell.truth
     turn = quaternions.product(quaternions.conjugate(truth.quaternion[0]), told.quaternion[0])
     found = [float(np.abs(quaternions.rotation_vector(turn)).max())]
     for name in ("position", "velocity", "omega"):
         mine, its = getattr(told, name), getattr(truth, name)
-        found.append(float(np.abs(mine[0] - its[0]).max()) / (float(np.abs(its).max()) + 1e-9))
+        scale = _sweeping(truth) if name == "velocity" else float(np.abs(its).max())
+        found.append(float(np.abs(mine[0] - its[0]).max()) / (scale + 1e-9))
     return max(found) / (100 * EPSILON)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from ..reference.checked import Array
 from ..reference.errors import InputError
 from ..reference.tree_schemes import moved
+from . import told_reactions
 from .cell import Cell
 from .common_causes import Localisation
 from .evidence import IMPLICIT, MANY, NOTHING, Evidence, inconsistency
@@ -77,6 +78,9 @@ def _of_a_right_motion(evidence: Evidence, failed: Sequence[Verdict]) -> tuple[s
         return tuple(f"the motion is right, and accelerations alone are as if {cause}" for cause in causes)
     if "determinism" in kinds:
         return ("not deterministic: the same cell gives other bits when it is run again",)
+    reactions = told_reactions.cause(evidence.cell)
+    if reactions:
+        return (reactions,)
     if kinds == {"stability"} and evidence.scheme == evidence.declared:
         return _past_the_limit(evidence)
     if kinds == {"setup"}:

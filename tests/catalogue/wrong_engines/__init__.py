@@ -4,10 +4,10 @@
 and ``benchmarks/discernment.py`` publishes how many are, and down to what size.
 """
 
-from . import bodies, clocks, defaults, gravity, schemes, springs, stability, telling, terms, whims
+from . import bodies, clocks, defaults, gravity, reactions, schemes, springs, stability, telling, terms, whims
 from .entry import Sight, Wrong
 
 __all__ = ["CATALOGUE", "Sight", "Wrong"]
 
-_FILES = (bodies, gravity, terms, defaults, springs, telling, clocks, schemes, stability, whims)
+_FILES = (bodies, gravity, terms, defaults, springs, telling, reactions, clocks, schemes, stability, whims)
 CATALOGUE: dict[str, Wrong] = {wrong.name: wrong for file in _FILES for wrong in file.WRONG}
