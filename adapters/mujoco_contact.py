@@ -33,21 +33,23 @@ THIN = 1e-3
 
 
 def add_contacts(mujoco: Any, spec: Any, bodies: Mapping[str | None, Any], scene: Scene, dt: float) -> None:
-    """Give a model its shapes and contacts, and its solver what it needs for them."""
-    option = spec.option
-    option.cone, option.tolerance = mujoco.mjtCone.mjCONE_ELLIPTIC, 0.0
-    soft = any(_impedance(contact) < HARD for contact in scene.contacts)
-    option.impratio = SLIDES if soft else HOLDS
+    """Give a model its shapes and contacts, and its solver what it needs for them, or leave it as it is."""
+    if not scene.defaults:
+        option = spec.option
+        option.cone, option.tolerance = mujoco.mjtCone.mjCONE_ELLIPTIC, 0.0
+        soft = any(_impedance(contact) < HARD for contact in scene.contacts)
+        option.impratio = SLIDES if soft else HOLDS
     for number, contact in enumerate(scene.contacts):
-        raised = _settled(contact, scene, dt)
+        raised = 0.0 if scene.defaults else _settled(contact, scene, dt)
         _add_shape(mujoco, bodies[contact.first], contact.shape, f"{number} first", 0.0)
         _add_shape(mujoco, bodies[contact.second], contact.against, f"{number} second", raised)
         pair = spec.add_pair(name=contact.name, geomname1=f"{number} first", geomname2=f"{number} second")
-        _set(pair, contact, dt)
+        pair.friction[:2], pair.condim = contact.friction, 3 if contact.friction else 1
+        if not scene.defaults:
+            _set(pair, contact, dt)
 
 
 def _set(pair: Any, contact: Contact, dt: float) -> None:
-    pair.friction[:2], pair.condim = contact.friction, 3 if contact.friction else 1
     pair.solimp[:2] = _impedance(contact)
     pair.solref = [-1 / dt**2, -1 / dt] if contact.friction else [-NOTHING, -(1 + contact.restitution) / dt]
     if contact.slides:
@@ -59,8 +61,10 @@ def told(model: Any, scene: Scene) -> dict[str, float]:
     values: dict[str, float] = {}
     for number, contact in enumerate(scene.contacts):
         values[f"contact/{contact.name}/friction"] = float(model.pair_friction[number, 0])
-        damping = -float(model.pair_solref[number, 1])
-        values[f"contact/{contact.name}/restitution"] = damping * float(model.opt.timestep) - 1
+        stiffness, damping = -model.pair_solref[number]
+        # Given as a time and a share of what damps it out, both positive, it is never thrown back.
+        again = damping * float(model.opt.timestep) - 1 if stiffness > 0 else 0.0
+        values[f"contact/{contact.name}/restitution"] = float(again)
     return values
 
 

@@ -143,7 +143,7 @@ class _World:
         p.setGravity(*scene.gravity, physicsClientId=client)
         self._batch(1)
         uids = {load(p, client, scene, tree, maximal): tree for tree in trees(scene)}
-        links = dict(named for uid in uids for named in quieted(p, client, uid))
+        links = dict(named for uid in uids for named in quieted(p, client, uid, scene))
         self.at = layout(scene, {body: uid for uid, tree in uids.items() for body in tree}, links)
         solids.touch_nothing(p, client, scene, self.at.bodies)
         self._pushes = pushes(p, client, scene, self.at, dt)

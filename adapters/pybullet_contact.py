@@ -30,7 +30,8 @@ INSTANT = 1e-12
 
 def connect(p: Any, client: int, scene: Scene, places: Sequence[Place]) -> list[tuple[Place, Place]]:
     """Let the pairs of the scene touch, and no others; where PyBullet has the two of each."""
-    p.setPhysicsEngineParameter(**SOLVER, physicsClientId=client)
+    if not scene.defaults:
+        p.setPhysicsEngineParameter(**SOLVER, physicsClientId=client)
     at: dict[str | None, Place] = {body.name: place for body, place in zip(scene.bodies, places, strict=True)}
     for place in places:
         p.setCollisionFilterGroupMask(*place, 0, 0, physicsClientId=client)

@@ -31,12 +31,13 @@ def load(p: Any, client: int, scene: Scene, tree: list[int], maximal: bool) -> i
     return int(uid)
 
 
-def quieted(p: Any, client: int, uid: int) -> Iterator[tuple[str, Place]]:
-    """Take from a tree what PyBullet adds by itself; the places of its joints by name."""
-    p.changeDynamics(
-        uid, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,
-        activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=client,
-    )  # fmt: skip
+def quieted(p: Any, client: int, uid: int, scene: Scene) -> Iterator[tuple[str, Place]]:
+    """Take from a tree what PyBullet adds by itself, if the scene asks for it; its joints' places by name."""
+    if not scene.defaults:
+        p.changeDynamics(
+            uid, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,
+            activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=client,
+        )  # fmt: skip
     still = {"targetPosition": IDENTITY, "physicsClientId": client}
     for link in range(p.getNumJoints(uid, client)):
         _, name, kind, *_ = p.getJointInfo(uid, link, client)

@@ -99,7 +99,7 @@ def _exactly_turned(scene: Scene) -> float:
     return float(np.arctan2(across, along) - np.arctan2(across, -_restitution(scene) * along)) % np.pi
 
 
-def _collision(restitution: float) -> Scene:
+def _collision(restitution: float, defaults: bool = False) -> Scene:
     unit = [np.array(q) / np.linalg.norm(q) for q in ATTITUDES]
     where = (np.zeros(3), sum(RADII) * NORMAL)
     start = [w - MEETING * np.array(v) for w, v in zip(where, VELOCITIES, strict=True)]
@@ -109,8 +109,11 @@ def _collision(restitution: float) -> Scene:
     )
     return Scene(
         name="collisions",
-        variant=f"e={restitution:g}",
-        summary=f"Two smooth spinning spheres meet off centre, e = {restitution:g}.",
+        variant="defaults" if defaults else f"e={restitution:g}",
+        summary="What a user gets who sets nothing: e = 1 is asked for, of contacts as they come."
+        if defaults
+        else f"Two smooth spinning spheres meet off centre, e = {restitution:g}.",
+        defaults=defaults,
         source="Goldstein, Classical Mechanics, ch. 3.11; Landau & Lifshitz, Mechanics, § 17",
         bodies=bodies,
         contacts=(Contact("first", Sphere(RADII[0]), "second", Sphere(RADII[1]), restitution=restitution),),
@@ -136,8 +139,8 @@ def _collision(restitution: float) -> Scene:
             pictures.against_time("The first's x", "x [m]", lambda scene, m: m.position[:, 0, 0]),
             pictures.against_time("The second's x", "x [m]", lambda scene, m: m.position[:, 1, 0]),
         ),
-        ladders={1: LADDER},
+        ladders={} if defaults else {1: LADDER},
     )
 
 
-SCENES = tuple(_collision(e) for e in (0.0, 0.5, 1.0))
+SCENES = (*(_collision(e) for e in (0.0, 0.5, 1.0)), _collision(1.0, defaults=True))

@@ -125,8 +125,8 @@ def _attitude(axis: Array) -> Array:
 
 
 def _incline(variant: str) -> Scene:
-    slips = variant.startswith("slips")
-    shape = "hoop" if slips else variant
+    slips, defaults = variant.startswith("slips"), variant == "defaults"
+    shape = "hoop" if slips else "sphere" if defaults else variant
     kappa, across = SHAPES[shape]
     # Downhill is along x only where PyBullet's two directions of friction are to lie along the slip.
     heading = 0.0 if variant == "slips" else 0.6
@@ -141,7 +141,10 @@ def _incline(variant: str) -> Scene:
     return Scene(
         name="rolling",
         variant=variant,
-        summary=f"A {shape} on an incline {'a little too' if slips else 'all but too'} steep to roll.",
+        summary="What a user gets who sets nothing: a sphere that should roll, in contacts as they come."
+        if defaults
+        else f"A {shape} on an incline {'a little too' if slips else 'all but too'} steep to roll.",
+        defaults=defaults,
         source="Goldstein, Classical Mechanics, ch. 2.4; Sommerfeld, Mechanics, ch. IV",
         bodies=(Body("wheel", MASS, diagonal(*moments), (Joint("free", "free"),)),),
         contacts=(Contact("wheel", Sphere(RADIUS), None, plane, friction=friction, slides=slips),),
@@ -167,8 +170,8 @@ def _incline(variant: str) -> Scene:
         pictures=(
             pictures.against_time("Speed", "v [m/s]", lambda scene, m: m.velocity[:, 0] @ axes(scene)[1]),
         ),
-        ladders={1: (1.6e-2, 8e-3, 4e-3, 2e-3, 1e-3)},
+        ladders={} if defaults else {1: (1.6e-2, 8e-3, 4e-3, 2e-3, 1e-3)},
     )
 
 
-SCENES = tuple(_incline(variant) for variant in (*SHAPES, "slips", "slips aslant"))
+SCENES = tuple(_incline(variant) for variant in (*SHAPES, "slips", "slips aslant", "defaults"))

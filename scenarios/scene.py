@@ -77,6 +77,7 @@ class Scene:
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
     ``soft`` says of engines, by name, how far their contacts give way: granted beside round-off.
     ``forces`` act at the centres of mass, beside gravity and what joints do; ``burning`` bodies lose mass.
+    ``defaults`` asks engines to leave what they add by themselves, and contacts as they come.
     ``reactions`` names the bodies whose joints' reactions are measured, as ``Trajectory.reaction`` has them.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
@@ -112,6 +113,7 @@ class Scene:
     forces: tuple[Force, ...] = ()
     burning: tuple[Burning, ...] = ()
     reactions: tuple[str, ...] = ()
+    defaults: bool = False
 
     def __post_init__(self) -> None:
         try:
@@ -215,8 +217,12 @@ class Scene:
         skipped = judged | {"pictures"}
         plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
         plain["observables"] = [observable.name for observable in self.observables]
-        if not self.reactions:  # unknown to the logs of before, which still say what their scene was
-            del plain["reactions"]
+        for later in (
+            "reactions",
+            "defaults",
+        ):  # unknown to the logs of before, which still say what they are of
+            if not plain[later]:
+                del plain[later]
         return json.dumps(plain, default=_plain, sort_keys=True)
 
     def _check(self) -> None:

@@ -1,0 +1,56 @@
+"""Engines as they come: what they do by themselves is on record, and one that is tuned is found out."""
+
+from dataclasses import replace
+
+import pytest
+from poinsot.adapters.registry import scheme_of
+from poinsot.adapters.simulate import simulate
+from poinsot.reports.judge import judge
+from poinsot.reports.verdict import Status
+from poinsot.scenarios.registry import scenes
+
+DEFAULTS = [name for name, scene in scenes().items() if scene.defaults]
+
+
+def verdicts(engine, name, scheme=None):
+    scene = scenes()[name]
+    motion, _ = simulate(scene, engine, scheme_of(engine, scheme), scene.dt, repeats=2)
+    return judge([motion])
+
+
+def tuned(engine):
+    """The engine with the settings of every other scene, whatever it is asked for."""
+
+    class Tuned(engine):
+        def build(self, scene, scheme, dt):
+            super().build(replace(scene, defaults=False), scheme, dt)
+
+    return Tuned
+
+
+def test_every_variant_of_that_name_and_no_other_asks_for_defaults():
+    assert {scenes()[name].variant for name in DEFAULTS} == {"defaults"}
+    assert not [name for name, s in scenes().items() if s.variant == "defaults" and not s.defaults]
+    assert '"defaults"' in scenes()[DEFAULTS[0]].as_json()
+    assert '"defaults"' not in scenes()["free_symmetric_top[oblate]"].as_json()
+
+
+@pytest.mark.parametrize(
+    ("name", "engine"),
+    [
+        ("free_symmetric_top[defaults]", "pybullet"),
+        ("collisions[defaults]", "pybullet"),
+        ("collisions[defaults]", "mujoco"),
+        ("rolling[defaults]", "mujoco"),
+    ],
+)
+def test_what_an_engine_does_by_itself_is_known_and_tuned_it_does_so_no_longer(name, engine):
+    module = pytest.importorskip(f"poinsot.adapters.{engine}_")
+    engine = {"pybullet": "PyBullet", "mujoco": "MuJoCo"}[engine]
+    found = verdicts(getattr(module, engine), name)
+    assert {verdict.status for verdict in found} == {Status.PASS, Status.KNOWN}
+    known = {verdict.check for verdict in found if verdict.status is Status.KNOWN}
+    assert {"truth", "setup"} <= known or (name, engine) == ("rolling[defaults]", "MuJoCo")
+    now = verdicts(tuned(getattr(module, engine)), name)
+    assert Status.FIXED in {verdict.status for verdict in now}
+    assert Status.KNOWN not in {verdict.status for verdict in now}
