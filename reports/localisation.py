@@ -151,9 +151,10 @@ def _stepping(evidence: Evidence) -> str:
 _SCHEMES = {
     "semi-implicit Euler": "steps are those of semi-implicit Euler, not of {declared}: order 1",
     "explicit Euler": "steps are those of explicit Euler, not of {declared}: order 1",
+    # Before the next: where nothing turns the two are the same.
+    "RKMK4": "steps are those of Runge and Kutta, not of {declared}",
     "RK4 of body velocities": "orientation is integrated to order 2 only: ω of a step's stages are added up "
     "as if their axes were the same",
-    "RKMK4": "steps are those of Runge and Kutta, not of {declared}",
     "implicit gyroscopic": "gyroscopic term is taken at the end of the step, not as {declared} does",
     "exact": "answers are the exact motion itself, not an integration by {declared}",
 }

@@ -30,6 +30,11 @@ WITHOUT_A_LOG = {"not finite for a moment, then well again"}
 SIGHTS = [(wrong, sight) for wrong in CATALOGUE.values() for sight in wrong.sights if wrong.located]
 
 
+def marks(wrong):
+    """Those that are sought in the motion, and faults of several sizes, take minutes together."""
+    return [pytest.mark.long] if wrong.family else []
+
+
 def said(runs, beside=()):
     """What is said of ``runs``, all of one engine, when they are judged."""
     verdicts = judge([*runs, *beside], known=())
@@ -40,8 +45,10 @@ def said(runs, beside=()):
 
 @pytest.mark.parametrize(
     ("wrong", "sight"),
-    SIGHTS,
-    ids=[f"{wrong.name} in {sight.scene}, {sight.twin}" for wrong, sight in SIGHTS],
+    [
+        pytest.param(wrong, sight, marks=marks(wrong), id=f"{wrong.name} in {sight.scene}, {sight.twin}")
+        for wrong, sight in SIGHTS
+    ],
 )
 def test_what_is_wrong_is_said(wrong, sight):
     right = [other for other in RIGHT if sight.beside and not issubclass(wrong.engine, other)]
@@ -55,7 +62,7 @@ def test_what_is_wrong_is_said(wrong, sight):
 
 def test_four_in_five_of_the_catalogue_are_named():
     named = [wrong.name for wrong in CATALOGUE.values() if wrong.located]
-    assert len(named) >= 0.8 * len(CATALOGUE)
+    assert len(named) >= 0.8 * len(CATALOGUE.keys() - WITHOUT_A_LOG)
 
 
 @pytest.mark.parametrize("scene", [TOP, FREE, TUMBLING, CHAIN, PENDULUM])

@@ -4,10 +4,42 @@
 and ``benchmarks/discernment.py`` publishes how many are, and down to what size.
 """
 
-from . import bodies, clocks, defaults, gravity, reactions, schemes, springs, stability, telling, terms, whims
-from .entry import Sight, Wrong
+from . import (
+    bodies,
+    clocks,
+    contacts,
+    defaults,
+    gravity,
+    reactions,
+    schemes,
+    springs,
+    stability,
+    starts,
+    telling,
+    terms,
+    whims,
+)
+from .entry import Family, Sight, Wrong
 
-__all__ = ["CATALOGUE", "Sight", "Wrong"]
+__all__ = ["CATALOGUE", "FAMILIES", "Family", "Sight", "Wrong"]
 
-_FILES = (bodies, gravity, terms, defaults, springs, telling, reactions, clocks, schemes, stability, whims)
+_FILES = (
+    bodies,
+    gravity,
+    terms,
+    defaults,
+    springs,
+    starts,
+    contacts,
+    telling,
+    reactions,
+    clocks,
+    schemes,
+    stability,
+    whims,
+)
 CATALOGUE: dict[str, Wrong] = {wrong.name: wrong for file in _FILES for wrong in file.WRONG}
+#: Faults of any size, each once.
+FAMILIES: tuple[Family, ...] = tuple(
+    dict.fromkeys(wrong.family for wrong in CATALOGUE.values() if wrong.family is not None)
+)

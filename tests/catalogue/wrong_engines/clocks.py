@@ -1,6 +1,9 @@
 """States of another time, and steps of another length."""
 
+import numpy as np
+from poinsot.adapters.engine import State
 from poinsot.adapters.mujoco_ import MuJoCo
+from poinsot.adapters.pinocchio_ import Pinocchio
 
 from .entry import (
     CHAIN,
@@ -12,13 +15,16 @@ from .entry import (
     RK,
     SE,
     TOP,
+    TUMBLING,
     TURNING,
     TWIN,
+    Family,
     Lying,
     Sight,
     Wrong,
+    alone,
     state,
-)  # fmt: skip
+)
 
 
 class OneSampleLate(MuJoCo):
@@ -90,6 +96,64 @@ class HalfTheSteps(Lying, MuJoCo):
         self._owed %= 2
 
 
+class OneStepEarly(Lying, MuJoCo):
+    """Has taken a step before the first is asked for."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        super().step(1)
+
+
+def slow(size, lie=Lying):
+    """Steps longer than asked for by a part of themselves."""
+
+    class Longer(lie, MuJoCo):
+        def build(self, scene, scheme, dt):
+            super().build(scene, scheme, dt)
+            self._model.opt.timestep *= 1 + size
+
+    return Longer
+
+
+class StepOfItsOwn(Lying, MuJoCo):
+    """Takes the step that it likes, whichever was asked for: as many as make the same time."""
+
+    def build(self, scene, scheme, dt):
+        self._asked_dt = dt
+        super().build(scene, scheme, dt)
+        self._model.opt.timestep = self._own = scene.duration / scene.samples / 100
+
+    def step(self, n):
+        super().step(round(n * self._asked_dt / self._own))
+
+
+def coarse(steps):
+    """Steps ``steps`` times as long, between which it draws straight lines to the times of the samples."""
+
+    class Coarse(Lying, Pinocchio):
+        def build(self, scene, scheme, dt):
+            super().build(scene, scheme, steps * dt)
+            self._asked = scene, dt
+            self._now, self._last, self._next = 0, super().state(), super().state()
+
+        def step(self, n):
+            self._now += n
+            while self._now > steps * self._steps:
+                self._last = self._next
+                super().step(1)
+                self._next = super().state()
+
+        def state(self):
+            part = self._now / steps - self._steps + 1
+            mixed = [(1 - part) * a + part * b for a, b in zip(self._last, self._next, strict=True)]
+            found = State(*mixed) if self._steps else self._next
+            norm = np.linalg.norm(found.quaternion, axis=1, keepdims=True)
+            return found._replace(quaternion=found.quaternion / norm)
+
+    return Coarse
+
+
+STEP = Family("step, in the run alone", slow, alone(TOP, SE, "truth orientation, limit"))
 WRONG = (
     Wrong(
         "state is one sample late", "time", OneSampleLate,
@@ -111,7 +175,9 @@ WRONG = (
     ),
     Wrong(
         "velocity is half a step late", "time", HalfAStepLate,
-        (Sight(CHAIN, SE, {"truth velocity, scheme's own"}, near=None, beside=False),),
+        (
+            alone(CHAIN, SE, "truth velocity, scheme's own"),
+        ),
         located=r"^velocities are told half a step late$",
     ),
     Wrong(
@@ -134,5 +200,29 @@ WRONG = (
             ),
         ),
         located=r"^step is twice the stated one, and one is taken for 2$",
+    ),
+    Wrong(
+        "state is one step early", "time", OneStepEarly,
+        (
+            alone(TOP, RK, "order omega", says="fitted order 1.* declared 4"),
+            alone(CHAIN, SE, "truth position, scheme's own"),
+        ),
+    ),
+    *STEP.sizes(
+        "time", {1e-4: ("steps are 1e-4 too long", ""), 1e-6: ("steps are 1e-6 too long", "")}
+    ),
+    Wrong(
+        "the step asked for is never taken", "time", StepOfItsOwn,
+        (alone(TOP, SE, "order orientation", says="fitted order -?0.0.* declared 1"),),
+        located=r"^step is a part of the stated one, 1/10, and 10 are taken for each$",
+    ),
+    Wrong(
+        "samples lie on lines between coarse steps of Euler", "time", coarse(8),
+        (alone(TOP, SE, "truth omega"),),
+    ),
+    Wrong(
+        "samples lie on lines between coarse steps of RK4", "time", coarse(3),
+        (alone(TUMBLING, RK, "order omega", says="fitted order [12].* declared 4"),),
+        located=r"^angular velocity is interpolated between coarser steps",
     ),
 )  # fmt: skip

@@ -1,6 +1,8 @@
 """What PyBullet does unless it is told not to: damping, and a clamp on velocities."""
 
+import numpy as np
 from poinsot.adapters import pybullet_
+from poinsot.adapters.mujoco_ import MuJoCo
 from poinsot.adapters.pybullet_ import PyBullet
 
 from .entry import (
@@ -11,16 +13,19 @@ from .entry import (
     MOMENTUM,
     P_ALPHA,
     P_GAMMA,
+    PENDULUM,
     RATES,
     SE,
     SPIN,
     TUMBLING,
     TURNING,
     TWIN,
+    Family,
     Lying,
     Sight,
     Wrong,
-)  # fmt: skip
+    alone,
+)
 
 
 class ByDefault(PyBullet):
@@ -55,6 +60,10 @@ class LyingClamped(Lying, Clamped):
     pass
 
 
+class LinearlyDamped(Lying, ByDefault):
+    default = ("linearDamping", 0.04)
+
+
 def damped(rate):
     """An angular damping of ``rate`` [1/s]: not in the copy, so that accelerations show none of it."""
 
@@ -66,6 +75,37 @@ def damped(rate):
     return SlightlyDamped
 
 
+def dragging(damping):
+    """A damper [N m s/rad] in each hinge that none was asked for in."""
+
+    class Dragging(Lying, MuJoCo):
+        def build(self, scene, scheme, dt):
+            super().build(scene, scheme, dt)
+            self._model.dof_damping += damping
+
+    return Dragging
+
+
+def friction_loss(moment):
+    """A dry friction [N m] in each hinge."""
+
+    class Dry(Lying, MuJoCo):
+        def step(self, n):
+            for _ in range(n):
+                self._data.qfrc_applied[:] = -moment * np.sign(self._data.qvel)
+                super().step(1)
+
+    return Dry
+
+
+DAMPING = Family(
+    "angular damping [1/s], in the run alone", damped,
+    alone(TUMBLING, SE, "truth orientation, limit", "truth omega, limit"),
+)  # fmt: skip
+DAMPER = Family(
+    "damper in a hinge [N m s/rad]", dragging, alone(PENDULUM, SE, EQUATIONS, "truth orientation, limit")
+)
+DRY = Family("dry friction in a hinge [N m]", friction_loss, alone(PENDULUM, SE, "truth orientation, limit"))
 WRONG = (
     Wrong(
         "angular damping is 0.04 /s, and probed so", "damping", Damped,
@@ -109,13 +149,24 @@ WRONG = (
         ),
         located=r"^angular velocity is clamped at 100 rad/s$",
     ),
+    *DAMPING.sizes(
+        "damping",
+        {
+            1e-4: ("angular damping is 1e-4 /s in the run alone", r"^angular damping ≈ 0\.0001 /s$"),
+            1e-6: ("angular damping is 1e-6 /s in the run alone", r"^angular damping ≈ 1e-06 /s$"),
+        },
+    ),
     Wrong(
-        "angular damping is 1e-4 /s in the run alone", "damping", damped(1e-4),
-        (
-            Sight(
-                TUMBLING, SE, {"truth orientation, limit", "truth omega, limit"}, near=None, beside=False
-            ),
-        ), 1e-4, of_size=damped,
-        located=r"^angular damping ≈ 0\.0001 /s$",
+        "linear damping is 0.04 /s", "damping", LinearlyDamped,
+        (alone(FREE, SE, EQUATIONS, "truth position", "invariant momentum"),), 0.04,
+        located=r"^linear damping ≈ 0\.04 /s$",
+    ),
+    *DAMPER.sizes(
+        "damping",
+        {1e-6: ("a hinge is damped by 1e-6 N m s/rad", "joint 'hinge' is damped by 1e-06 N m s")},
+    ),
+    *DRY.sizes(
+        "damping",
+        {1e-6: ("a hinge has a dry friction of 1e-6 N m", "^joint 'hinge' has a dry friction of 1e-06 N m$")},
     ),
 )  # fmt: skip

@@ -1,7 +1,7 @@
 """What a wrong engine is: its fault in words and in size, the class, and where which checks see it."""
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from poinsot.adapters.engine import Setup
@@ -35,31 +35,6 @@ class Sight:
     beside: bool = True
 
 
-@dataclass(frozen=True)
-class Wrong:
-    """An engine that is wrong in one known way.
-
-    ``name`` says the fault in words, ``kind`` what it is a fault of, ``size`` how large it is if it has a
-    size (a part of the right value, unless the name gives a unit); ``of_size`` makes the same fault of
-    another size.
-    ``located`` is a pattern that the sentence of `poinsot.reports.localisation` should match; empty if
-    none is expected. An engine that ``lies`` repeats as its setup what the scene asks for.
-    """
-
-    name: str
-    kind: str
-    engine: type[Any]
-    sights: tuple[Sight, ...]
-    size: float | None = None
-    located: str = ""
-    of_size: Callable[[float], type[Any]] | None = None
-
-    @property
-    def lies(self) -> bool:
-        """Whether its setup reads as if nothing were wrong."""
-        return issubclass(self.engine, Lying)
-
-
 class Lying:
     """Builds something else than it was asked for, and says that it did not."""
 
@@ -75,17 +50,85 @@ class Lying:
         return Setup(setup.expected(*self._asked))
 
 
-def sized(
-    kind: str,
-    names: Mapping[float, str],
-    of_size: Callable[[float], type[Any]],
-    sights: tuple[Sight, ...],
-    located: str = "",
-) -> tuple[Wrong, ...]:
-    """One fault in several sizes, each with its name."""
-    return tuple(
-        Wrong(name, kind, of_size(size), sights, size, located, of_size) for size, name in names.items()
-    )
+class Feigning(Lying):
+    """Tells of accelerations, too, those of what it was asked for: only its motion gives it away."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._feigned = self.right()
+        self._feigned.build(scene, scheme, dt)
+
+    def right(self):
+        """The engine that this is a wrong one of."""
+        return next(kind for kind in type(self).__mro__ if kind.__module__.startswith("poinsot."))()
+
+    def acceleration(self, q, v):
+        return self._feigned.acceleration(q, v)
+
+    def close(self):
+        if "_feigned" in vars(self):
+            self._feigned.close()
+        super().close()
+
+
+def building(mistake: Callable[[Scene], Scene], base: type[Any], lie: type[Any] = Lying) -> type[Any]:
+    """An engine that builds what ``mistake`` makes of a scene."""
+    return type("Building", (lie, base), {"mistaken": lambda self, scene: mistake(scene)})
+
+
+def first_body(scene: Scene, **changed: Any) -> Scene:
+    """The scene with its first body changed."""
+    return replace(scene, bodies=(replace(scene.bodies[0], **changed), *scene.bodies[1:]))
+
+
+@dataclass(frozen=True)
+class Family:
+    """One fault that may have any size: ``of_size`` makes the engine that has it.
+
+    ``what`` the size is of, with its unit unless it is a part of the right value. ``sight`` is where it is
+    cheapest to see; ``largest`` a size that the engine still builds.
+    """
+
+    what: str
+    of_size: Callable[[float], type[Any]]
+    sight: Sight
+    largest: float = 1e-2
+
+    def sizes(self, kind: str, names: Mapping[float, tuple[str, str]]) -> tuple["Wrong", ...]:
+        """The fault in several sizes, each by its name and the pattern of what should be said of it."""
+        return tuple(
+            Wrong(name, kind, self.of_size(size), (self.sight,), size, located, self)
+            for size, (name, located) in names.items()
+        )
+
+
+@dataclass(frozen=True)
+class Wrong:
+    """An engine that is wrong in one known way.
+
+    ``name`` says the fault in words, ``kind`` what it is a fault of, ``size`` how large it is if it has a
+    size: a part of the right value, unless its ``family`` names a unit.
+    ``located`` is a pattern that the sentence of `poinsot.reports.localisation` should match; empty if
+    none is expected. An engine that ``lies`` repeats as its setup what the scene asks for.
+    """
+
+    name: str
+    kind: str
+    engine: type[Any]
+    sights: tuple[Sight, ...]
+    size: float | None = None
+    located: str = ""
+    family: Family | None = None
+
+    @property
+    def lies(self) -> bool:
+        """Whether its setup reads as if nothing were wrong."""
+        return issubclass(self.engine, Lying)
+
+
+def alone(scene: str, twin: str, *red: str, says: str = "") -> Sight:
+    """Where an engine is seen with no other beside it, by these checks at least."""
+    return Sight(scene, twin, red, red[0] if says else "", says, near=None, beside=False)
 
 
 def state(*names: str) -> set[str]:

@@ -1,6 +1,7 @@
 """Gravity of another size or sign."""
 
 from dataclasses import replace
+from math import cos, sin
 
 from poinsot.adapters.mujoco_ import MuJoCo
 
@@ -14,10 +15,14 @@ from .entry import (
     TOP,
     TURNING,
     TWIN,
+    Family,
+    Feigning,
     Lying,
     Sight,
     Wrong,
-)  # fmt: skip
+    alone,
+    building,
+)
 
 
 class WeakGravity(MuJoCo):
@@ -29,14 +34,21 @@ class LyingWeakGravity(Lying, WeakGravity):
     pass
 
 
-def times(factor):
+def times(factor, lie=Lying):
     """Gravity multiplied by ``factor``."""
+    return building(
+        lambda scene: replace(scene, gravity=tuple(g * factor for g in scene.gravity)), MuJoCo, lie
+    )
 
-    class Times(Lying, MuJoCo):
-        def mistaken(self, scene):
-            return replace(scene, gravity=tuple(g * factor for g in scene.gravity))
 
-    return Times
+def leaning(angle):
+    """Gravity that leans by this angle [rad]."""
+
+    def leaned(scene):
+        x, y, z = scene.gravity
+        return replace(scene, gravity=(x - z * sin(angle), y, z * cos(angle)))
+
+    return building(leaned, MuJoCo)
 
 
 class StandardGravity(Lying, MuJoCo):
@@ -50,11 +62,10 @@ class OffByABillionth(Lying, MuJoCo):
         self._model.opt.gravity *= 1 + 1e-9
 
 
-def more(size):
-    """Gravity high by a part of itself."""
-    return times(1 + size)
-
-
+LIMIT = "truth orientation, limit"
+HIGH = Family("gravity", lambda size: times(1 + size), alone(TOP, SE, EQUATIONS, LIMIT))
+FEIGNED = Family("gravity, in the run alone", lambda size: times(1 + size, Feigning), alone(TOP, SE, LIMIT))
+LEANING = Family("direction of gravity [rad]", leaning, alone(TOP, SE, EQUATIONS, LIMIT))
 WRONG = (
     Wrong(
         "gravity is 9.80, and read back so", "gravity", WeakGravity,
@@ -83,20 +94,23 @@ WRONG = (
     ),
     Wrong(
         "gravity is 9.80665", "gravity", StandardGravity,
-        (Sight(TOP, SE, {EQUATIONS, "truth orientation, limit"}, near=None, beside=False),), 3.4e-4,
+        (alone(TOP, SE, EQUATIONS, LIMIT),), 3.4e-4,
         located=r"^gravity is 9\.80665 m/s²",
     ),
     Wrong(
         "gravity points up", "gravity", times(-1),
-        (Sight(TOP, SE, {EQUATIONS, "truth omega", "truth precession"}, near=None, beside=False),),
+        (alone(TOP, SE, EQUATIONS, "truth omega", "truth precession"),),
         located=r"^gravity has the wrong sign$",
     ),
-    Wrong(
-        "gravity is 1e-6 high", "gravity", more(1e-6),
-        (Sight(TOP, SE, {EQUATIONS, "truth orientation, limit"}, near=None, beside=False),), 1e-6,
-        of_size=more,
-        located=r"^gravity is 9\.81000981 m/s²",
+    *HIGH.sizes("gravity", {1e-6: ("gravity is 1e-6 high", r"^gravity is 9\.81000981 m/s²")}),
+    *FEIGNED.sizes(
+        "gravity",
+        {
+            1e-4: ("gravity is 1e-4 high in the run alone", r"^gravity is 9\.810981 m/s²"),
+            1e-6: ("gravity is 1e-6 high in the run alone", r"^gravity is 9\.81000981 m/s²"),
+        },
     ),
+    *LEANING.sizes("gravity", {1e-6: ("gravity leans by 1e-6 rad", "^gravity leans by 1e-06 rad along x$")}),
     Wrong(
         "gravity is 1e-9 high", "gravity", OffByABillionth,
         (Sight(TOP, SE, LIMITS | TWIN | {EQUATIONS}, "twin state", "from its twin .* in orientation"),), 1e-9,

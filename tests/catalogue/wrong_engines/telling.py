@@ -11,6 +11,7 @@ from .entry import (
     MOMENTUM,
     P_ALPHA,
     P_GAMMA,
+    PENDULUM,
     RATES,
     RK,
     SE,
@@ -20,8 +21,9 @@ from .entry import (
     Lying,
     Sight,
     Wrong,
+    alone,
     state,
-)  # fmt: skip
+)
 
 
 class ScalarFirst(MuJoCo):
@@ -82,6 +84,33 @@ class NeverNormalised(Lying, MuJoCo):
         return found._replace(quaternion=found.quaternion * (1 + 1e-9 * self._steps))
 
 
+class VelocityOfFrame(MuJoCo):
+    """Tells the velocity of the frame's origin: of a body about a fixed point, none."""
+
+    def state(self):
+        found = super().state()
+        arm = found.position - self._scratch.xpos[self._bodies]
+        swept = np.cross(quaternions.rotated(found.quaternion, found.omega), arm)
+        return found._replace(velocity=found.velocity - swept)
+
+
+class LeftHanded(Lying, MuJoCo):
+    """Mirrors what it tells of turning."""
+
+    def state(self):
+        found = super().state()
+        mirror = np.array([1.0, 1.0, -1.0])
+        return found._replace(quaternion=found.quaternion * [1, 1, -1, -1], omega=-found.omega * mirror)
+
+
+class InDegrees(Lying, MuJoCo):
+    """Tells joint angles in degrees."""
+
+    def state(self):
+        found = super().state()
+        return found._replace(joint_position=np.degrees(found.joint_position))
+
+
 WRONG = (
     Wrong(
         "quaternion is scalar-first", "quaternion", ScalarFirst,
@@ -109,7 +138,7 @@ WRONG = (
     ),
     Wrong(
         "quaternion is never normalised", "quaternion", NeverNormalised,
-        (Sight(TUMBLING, SE, {"invariant quaternion norm"}, near=None, beside=False),),
+        (alone(TUMBLING, SE, "invariant quaternion norm"),),
         located=r"^quaternion is not normalised",
     ),
     Wrong(
@@ -151,5 +180,17 @@ WRONG = (
             ),
         ),
         located=r"^orientation told of the bodies does not fit their joints",
+    ),
+    Wrong(
+        "velocity is the frame's, not the centre's", "velocity", VelocityOfFrame,
+        (alone(TOP, SE, "invariant energy"),),
+    ),
+    Wrong(
+        "attitudes are mirrored", "quaternion", LeftHanded,
+        (alone(TUMBLING, SE, "truth orientation", "truth omega", "invariant angular momentum"),),
+    ),
+    Wrong(
+        "joint angles are in degrees", "joints", InDegrees, (alone(PENDULUM, SE, "truth hinge angle"),),
+        located=r"^joint positions are in degrees$",
     ),
 )  # fmt: skip

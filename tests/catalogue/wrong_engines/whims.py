@@ -4,7 +4,7 @@ import numpy as np
 from poinsot.adapters.engine import State
 from poinsot.adapters.mujoco_ import MuJoCo
 
-from .entry import CHAIN, OWN, RATES, SE, TOP, TUMBLING, TURNING, TWIN, Lying, Sight, Wrong
+from .entry import CHAIN, OWN, RATES, SE, TOP, TUMBLING, TURNING, TWIN, Lying, Sight, Wrong, alone
 
 
 class Undecided(MuJoCo):
@@ -64,6 +64,34 @@ class NoisyEcho(Echo):
         return found._replace(omega=found.omega + noise)
 
 
+class StartsAgain(Lying, MuJoCo):
+    """Is back where it started half way, as MuJoCo's own reset would put it, and goes on from there."""
+
+    def step(self, n):
+        half = self._scene.duration / 2
+        before = self._steps * self._model.opt.timestep
+        super().step(n)
+        if before < half <= self._steps * self._model.opt.timestep:
+            self._data.qpos[self._q], self._data.qvel[self._v] = self._scene.q0, self._scene.v0
+
+
+class HurriedEcho(Echo):
+    """Hands out the exact motion by a clock that is wrong by dt: its error is of first order."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._exact = scene.truth(scene, scene.sample_times() * (1 + dt / 2))
+
+
+class Predicting(Echo):
+    """Hands out the motion of the very scheme, where that is known in closed form."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        if scene.scheme_motion:
+            self._exact = scene.scheme_motion(scene, scheme.twin, dt, scene.sample_times())
+
+
 WRONG = (
     Wrong(
         "last bit differs from run to run", "determinism", Undecided,
@@ -95,12 +123,24 @@ WRONG = (
     ),
     Wrong(
         "the exact motion with noise", "echo", NoisyEcho,
-        (
-            Sight(
-                TUMBLING, SE, {"determinism state", "order omega", "order orientation"}, near=None,
-                beside=False,
-            ),
-        ),
+        (alone(TUMBLING, SE, "determinism state", "order omega", "order orientation"),),
         located=r"^answers are the exact motion itself with noise of .* rad/s in omega$",
+    ),
+    Wrong(
+        "reset to the start half way", "reset", StartsAgain,
+        (alone(TOP, SE, "truth orientation", "order orientation"),),
+        located=r"^state was reset to the start between t = 0\.99 s and 1 s$",
+    ),
+    Wrong(
+        "the exact motion by a clock that is wrong by dt", "echo", HurriedEcho,
+        (
+            Sight(TOP, SE, TWIN, "twin state", "from its twin", near=RATES | TURNING),
+            alone(CHAIN, SE, "truth position, scheme's own"),
+        ),
+    ),
+    Wrong(
+        "the scheme's motion in closed form, where there is one", "echo", Predicting,
+        (alone(TOP, SE, "order orientation", says="too good to be an integration"),),
+        located=r"^answers are the exact motion itself, not an integration",
     ),
 )  # fmt: skip
