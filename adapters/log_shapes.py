@@ -123,7 +123,7 @@ def _principal(inertia: Array) -> tuple[Array, Array]:
 
 def _limits(scene: Scene, place: int, positions: Array) -> tuple[float, float]:
     """How large [m] a shape is at least and at most whose size is not given."""
-    roots = [_root(scene, body) for body in scene.bodies]
+    roots = [_carriers(scene, body)[-1] for body in scene.bodies]
     away = np.linalg.norm(positions[0] - positions[0, place], axis=1)
     kin = np.array([root is roots[place] for root in roots])
     others, own = away[~kin & (away > 0)], away[kin & (away > 0)]
@@ -159,15 +159,18 @@ def _lines(scene: Scene, body: Body, color: Color, largest: float) -> Iterator[P
     yield from (line([_MIDDLE, reach * axis], paint) for axis, paint in zip(np.eye(3), AXES, strict=True))
 
 
+def _carriers(scene: Scene, body: Body) -> list[Body]:
+    """The body and all between it and the world, the root last."""
+    known: dict[str | None, Body] = {other.name: other for other in scene.bodies}
+    found = [body]
+    while found[-1].parent:
+        found.append(known[found[-1].parent])
+    return found
+
+
 def _turns(scene: Scene, body: Body) -> bool:
     """Whether any joint between the body and the world lets it turn."""
-    if any(joint.kind != "slide" for joint in body.joints):
-        return True
-    return any(_turns(scene, other) for other in scene.bodies if other.name == body.parent)
-
-
-def _root(scene: Scene, body: Body) -> Body:
-    return next((_root(scene, other) for other in scene.bodies if other.name == body.parent), body)
+    return any(joint.kind != "slide" for one in _carriers(scene, body) for joint in one.joints)
 
 
 def span(positions: Array) -> float:

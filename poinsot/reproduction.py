@@ -12,14 +12,19 @@ from .scenarios.scene import Scene
 #: What a script can hold: everything else is set up over many calls.
 PLAIN = frozenset({"free", "ball", "hinge", "slide", "weld", "tree", "gravity"})
 
+#: What MuJoCo's own text of a model says beside.
+MUJOCO = frozenset({"spring", "damper", "solid", "ellipsoid", "shell"})
+
 
 def stands_alone(scene: Scene, engine: type[Engine]) -> bool:
     """Whether there is a script that needs the engine alone."""
     centred = not any(any(body.center_of_mass) for body in scene.bodies if _is_free(scene, body.name))
+    if engine.name == "pybullet" and "solid" in scene.features:
+        return True  # not the run, but what is wrong in it
     if engine.name == "pybullet":
         aligned = all(np.count_nonzero(body.inertia_array) == 3 for body in scene.bodies)
         return scene.features <= PLAIN and aligned and centred
-    return engine.name == "mujoco" and scene.features <= PLAIN | {"spring", "damper"}
+    return engine.name == "mujoco" and scene.features <= PLAIN | MUJOCO
 
 
 def script(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> str:
@@ -36,6 +41,8 @@ def script(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> str
     finally:
         machine.close()
     steps = scene.samples * scene.steps_per_sample(dt)
+    if engine.name == "pybullet" and "solid" in scene.features:
+        return "\n".join([f"MODEL = '''{model}'''", *_pybullet_moments(scene)])
     write = {"mujoco": _mujoco, "pybullet": _pybullet}[engine.name]
     return "\n".join([f"MODEL = '''{model}'''", *write(scene, scheme, dt, steps), *_exact(scene)])
 
@@ -95,6 +102,27 @@ def _pybullet(scene: Scene, scheme: Scheme, dt: float, steps: int) -> Iterable[s
     yield "        print(*p.getBasePositionAndOrientation(body))"
     yield "    for link in range(p.getNumJoints(body)):"
     yield "        print(*p.getLinkState(body, link, 1, 1)[:2])"
+
+
+def _pybullet_moments(scene: Scene) -> Iterable[str]:
+    """What PyBullet makes of solids when it loads them, beside what their moments are."""
+    yield "import pathlib, re, tempfile"
+    yield "import pybullet as p"
+    yield "p.connect(p.DIRECT)"
+    yield "folder = pathlib.Path(tempfile.mkdtemp())"
+    yield "for name, text in re.findall('<!-- (.*?)\\n(.*?)-->', MODEL, re.DOTALL):"
+    yield "    (folder / name).write_text(text)"
+    yield "for number, text in enumerate(MODEL.split('<?xml')[1:]):"
+    yield "    path = folder / f'model{number}.urdf'"
+    yield "    path.write_text('<?xml' + text)"
+    yield "    body = p.loadURDF(str(path), flags=p.URDF_USE_IMPLICIT_CYLINDER)"
+    yield "    for link in range(-1, p.getNumJoints(body)):"
+    yield "        mass, _, moments, *_ = p.getDynamicsInfo(body, link)"
+    yield "        if mass:"
+    yield "            print(mass, sorted(moments))"
+    yield "# Exactly they are (mass [kg], principal moments [kg m²]):"
+    for body in scene.bodies:
+        yield f"# {body.name}: {body.mass:.15g} {_numbers(np.linalg.eigvalsh(body.inertia_array))}"
 
 
 def _placed(scene: Scene) -> Iterable[str]:

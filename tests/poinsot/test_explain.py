@@ -31,6 +31,7 @@ def ends(scene, engine, scheme, dt):
         ("free_symmetric_top[oblate]", "pybullet", "maximal coordinates"),
         ("heavy_top[fast]", "pybullet", "reduced coordinates"),
         ("euler_angles[general]", "pybullet", "reduced coordinates"),
+        ("inertia_of_shapes[cone]", "mujoco", "Euler"),
     ],
 )
 def test_a_script_of_the_engine_alone_ends_where_the_cell_does(scene, engine, scheme):
@@ -45,6 +46,22 @@ def test_a_script_of_the_engine_alone_ends_where_the_cell_does(scene, engine, sc
         size = len(wanted)
         found = [np.array(numbers[i : i + size]) for i in range(len(numbers) - size + 1)]
         assert min(min(np.abs(f - wanted).max(), np.abs(f + wanted).max()) for f in found) < 1e-7
+
+
+@pytest.mark.parametrize("variant", ["capsule", "cone"])
+def test_a_script_of_pybullet_alone_shows_what_it_makes_of_solids(variant):
+    scene, kind = scenes()[f"inertia_of_shapes[{variant}]"], registry.load("pybullet")
+    text, printed = ends(scene.full_name, "pybullet", kind.schemes[0], scene.dt)
+    assert "poinsot" not in text
+    run, _ = simulate(scene, kind, kind.schemes[0], scene.dt)
+    moments = np.linalg.eigvalsh(run.provenance.setup[f"body/{scene.bodies[0].name}/inertia"])
+    rows = re.findall(r"^([\d.]+) \[(.*)\]$", printed, re.MULTILINE)
+    assert len(rows) == 3
+    for mass, row in rows:
+        assert float(mass) == scene.bodies[0].mass
+        np.testing.assert_allclose([float(number) for number in row.split(",")], moments, rtol=1e-12)
+    exact = np.linalg.eigvalsh(scene.bodies[0].inertia_array)
+    assert f"{exact[0]:.6g}"[:6] in text.split("# Exactly")[1]
 
 
 def test_a_scene_that_takes_many_calls_to_set_up_is_shown_with_poinsot(capfd):
