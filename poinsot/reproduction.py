@@ -122,7 +122,7 @@ def _pybullet_moments(scene: Scene) -> Iterable[str]:
     yield "            print(mass, sorted(moments))"
     yield "# Exactly they are (mass [kg], principal moments [kg m²]):"
     for body in scene.bodies:
-        yield f"# {body.name}: {body.mass:.15g} {_numbers(np.linalg.eigvalsh(body.inertia_array))}"
+        yield f"# {body.name}: {body.mass:.15g} {_numbers(np.asarray(np.linalg.eigvalsh(body.inertia_array), dtype=np.float64))}"
 
 
 def _placed(scene: Scene) -> Iterable[str]:
