@@ -122,7 +122,8 @@ def _pybullet_moments(scene: Scene) -> Iterable[str]:
     yield "            print(mass, sorted(moments))"
     yield "# Exactly they are (mass [kg], principal moments [kg m²]):"
     for body in scene.bodies:
-        yield f"# {body.name}: {body.mass:.15g} {_numbers(np.asarray(np.linalg.eigvalsh(body.inertia_array), dtype=np.float64))}"
+        moments = np.asarray(np.linalg.eigvalsh(body.inertia_array), dtype=np.float64)
+        yield f"# {body.name}: {body.mass:.15g} {_numbers(moments)}"
 
 
 def _placed(scene: Scene) -> Iterable[str]:

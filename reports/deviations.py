@@ -13,6 +13,8 @@ from ..reference.errors import InputError
 from .verdict import CHECKS, Ladder, Status, Verdict, ladder_of
 
 FILE = "known_deviations.toml"
+#: In a message, between what was found and the recorded reason for it.
+KNOWN = "; known: "
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ def _marked(verdict: Verdict, deviation: Deviation, gone: bool) -> Verdict:
     if verdict.status is not Status.FAIL or verdict.measured is None:
         return verdict
     if verdict.measured <= deviation.bound:
-        return replace(verdict, status=Status.KNOWN, message=f"{verdict.message}; known: {deviation.reason}")
+        return replace(verdict, status=Status.KNOWN, message=f"{verdict.message}{KNOWN}{deviation.reason}")
     return replace(verdict, message=f"{verdict.message}; beyond the recorded bound of {deviation.bound:.3g}")
 
 

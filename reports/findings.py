@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from .deviations import KNOWN
 from .digest import Column, Digest, Group, Record
 from .results import GRAVITY
 from .verdict import Status
@@ -41,9 +42,20 @@ def _finding(
     digest: Digest, key: tuple[Status, str, str], found: list[tuple[Group, Record, float]]
 ) -> Finding:
     status, about, sentence = key
-    groups = [group for group, _, _ in found]
+    groups = list({id(group): group for group, _, _ in found}.values())
     _, worst, dt = max(found, key=lambda place: _excess(place[1]))
-    return Finding(status, sentence, about, tuple(groups), _where(digest, groups), _numbers(worst, dt))
+    numbers = _numbers(worst, dt)
+    if not about and len(found) > 1 and numbers:
+        about, numbers = _checks(found), f"{worst['check']} of {worst['observable']} {numbers}"
+    return Finding(status, sentence, about, tuple(groups), _where(digest, groups), numbers)
+
+
+def _checks(found: list[tuple[Group, Record, float]]) -> str:
+    """Every check that a recorded reason speaks of, with what it was made on."""
+    of: dict[str, dict[str, None]] = {}
+    for _, record, _ in found:
+        of.setdefault(record["check"], {})[record["observable"]] = None
+    return "; ".join(f"{check} of {', '.join(observables)}" for check, observables in of.items())
 
 
 def _numbers(record: Record, dt: float) -> str:
@@ -79,7 +91,12 @@ def _told(group: Group) -> Iterator[tuple[tuple[Status, str, str], Record, float
         worst, at = max(found, key=lambda place: _excess(place[0]))
         where = "" if len(found) == len(group.cells) else steps(dt for _, dt in found)
         subject = ", ".join(part for part in (about, where) if part)
-        yield (status, subject, worst["message"] or status.sentence), worst, at
+        known, reason = worst["message"].rpartition(KNOWN)[1:]
+        if status is Status.KNOWN and known:
+            # One record of a deviation may speak of many checks: its reason is said once.
+            yield (status, "", reason), worst, at
+        else:
+            yield (status, subject, worst["message"] or status.sentence), worst, at
 
 
 def _excess(record: Record) -> float:

@@ -83,3 +83,18 @@ def test_the_worst_comes_first(results):
 def test_statuses_can_be_told_apart_without_colour():
     assert set(GLYPHS) == set(Status)
     assert len(set(GLYPHS.values())) == len(Status)
+
+
+def test_a_recorded_reason_is_said_once_with_every_check_that_it_speaks_of(results):
+    changed = copy.deepcopy(results)
+    for cell in changed["cells"]:
+        if cell["scheme"] == "reduced" and cell["scene"] == "heavy_top[moderate]":
+            for verdict in cell["verdicts"]:
+                wrong = {"status": "known", "measured": 2.0, "allowed": 1.0}
+                verdict.update(**wrong, message=f"{verdict['observable']} is off; known: it squints")
+    (finding,) = [f for f in told(changed, Status.KNOWN) if f.sentence == "it squints"]
+    assert finding.where == "pybullet reduced on heavy_top[moderate]"
+    kinds = {v["check"] for c in changed["cells"] for v in c["verdicts"] if "squints" in v["message"]}
+    assert len(kinds) > 1
+    assert {part.split(" of ")[0] for part in finding.about.split("; ")} == kinds
+    assert " at worst, dt " in finding.numbers
