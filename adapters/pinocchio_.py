@@ -52,6 +52,7 @@ class Pinocchio:
         "(a FreeFlyer's, in body axes, is another and worse scheme)",
         "solids": "their volume, centre and inertia are those of Coal, which Pinocchio comes with",
         "springs, dampers and forces": "joint forces of ours, taken where the scheme takes its accelerations",
+        "reactions": "by rnea, at the accelerations that aba gives in the very state",
         "contacts": "points, normals and gaps are Poinsot's own; the impulses are those of Pinocchio's "
         "projected Gauss-Seidel solver, at the end of each step",
     }
