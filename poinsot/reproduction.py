@@ -84,8 +84,9 @@ def _pybullet(scene: Scene, scheme: Scheme, dt: float, steps: int) -> Iterable[s
     )
     yield "joints = {}"
     yield "for body in found:"
-    yield "    p.changeDynamics(body, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,"
-    yield "                     activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING)"
+    if not scene.defaults:
+        yield "    p.changeDynamics(body, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,"
+        yield "                     activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING)"
     yield "    for link in range(p.getNumJoints(body)):"
     yield "        _, name, kind, *_ = p.getJointInfo(body, link)"
     yield "        joints[name.decode()] = body, link"

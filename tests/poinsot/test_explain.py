@@ -29,6 +29,7 @@ def ends(scene, engine, scheme, dt):
         ("heavy_top[fast]", "mujoco", "Euler"),
         ("co2_chain[mixture]", "mujoco", "Euler"),
         ("free_symmetric_top[oblate]", "pybullet", "maximal coordinates"),
+        ("free_symmetric_top[defaults]", "pybullet", "reduced coordinates"),
         ("heavy_top[fast]", "pybullet", "reduced coordinates"),
         ("euler_angles[general]", "pybullet", "reduced coordinates"),
         ("inertia_of_shapes[cone]", "mujoco", "Euler"),
