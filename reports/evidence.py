@@ -1,7 +1,7 @@
 """What a ladder of runs shows, held against the equations and the scheme that it should have followed."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -88,7 +88,7 @@ class Evidence:
     @cached_property
     def model(self) -> Model:
         """The scene's own equations, as intervals take them."""
-        return Model.of(centred(self.scene))
+        return Model.of(centred(self.scene), by_centres=True)
 
     @cached_property
     def residual(self) -> Array:
@@ -166,6 +166,10 @@ class Evidence:
         """How far the first state told is from the one asked for, in roundings."""
         return 0.0 if self.intervals is None else _elsewhere(self.cell)
 
+    def begins(self, told: Trajectory) -> bool:
+        """Whether a run begins as was asked for, though it be told otherwise than it was."""
+        return _elsewhere(replace(self.cell, trajectory=told)) <= NOTHING
+
     @property
     def right(self) -> bool:
         """Whether everything told follows from the start, by a scheme known here, to rounding."""
@@ -185,7 +189,7 @@ def inconsistency(intervals: Intervals | None, told: Trajectory) -> float:
     }
     turns = 1 + float(np.abs(told.joint_position).max(initial=0.0))
     parts = [
-        left / (10 * EPSILON * (scale[name] + 1e-9) * turns) for name, left in intervals.leftover.items()
+        left / (100 * EPSILON * (scale[name] + 1e-9) * turns) for name, left in intervals.leftover.items()
     ]
     return max(parts)
 

@@ -170,7 +170,8 @@ def _rounding(scene: Scene, q: Array, v: Array, stride: int) -> Array:
 
 
 def _leftover(scene: Scene, told: Trajectory, q: Array, v: Array) -> dict[str, float]:
-    position, quaternion, velocity, omega = equations_of_motion.link_motion(links(scene), _unit(scene, q), v)
+    q = unit_quaternions(scene, q)
+    position, quaternion, velocity, omega = equations_of_motion.link_motion(links(scene), q, v)
     turn = quaternions.product(quaternions.conjugate(quaternion), told.quaternion)
     found = {
         "position": told.position - position,
@@ -181,7 +182,8 @@ def _leftover(scene: Scene, told: Trajectory, q: Array, v: Array) -> dict[str, f
     return {name: float(np.abs(values).max()) for name, values in found.items()}
 
 
-def _unit(scene: Scene, q: Array) -> Array:
+def unit_quaternions(scene: Scene, q: Array) -> Array:
+    """Coordinates whose turns have length 1."""
     result = np.array(q)
     for _, joint, at, _ in scene.slices():
         if joint.kind in ("free", "ball"):

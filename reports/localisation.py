@@ -5,7 +5,7 @@ one that leaves nothing over but rounding speaks. Where none does, the sentence 
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from time import perf_counter
 
@@ -15,14 +15,16 @@ from ..reference.checked import Array
 from ..reference.errors import InputError
 from ..reference.tree_schemes import moved
 from . import told_reactions
+from .by_truth import in_truth
 from .cell import Cell
+from .centres import displaced_centres, elsewhere
 from .common_causes import Localisation
 from .evidence import IMPLICIT, MANY, NOTHING, Evidence, inconsistency
-from .fitting import Explanation, Residual, fitted, size
+from .fitting import Explanation, Residual, fitted, fitted_together, size
 from .intervals import Intervals
 from .signs import plain, weaker
 from .supposed import Model
-from .suspects import alternatives, suspects
+from .suspects import alternatives, several, suspects
 from .tellings import tellings
 from .verdict import Ladder, Status, Verdict, ladder_of
 from .wording import listed
@@ -60,7 +62,7 @@ def _causes(cells: Sequence[Cell], failed: Sequence[Verdict]) -> tuple[str, ...]
     evidence = Evidence.of(cells)
     if evidence.right:
         return _of_a_right_motion(evidence, failed)
-    for look in (plain, _at_states, _telling, _stepping, _in_motion, weaker):
+    for look in _LOOKS:
         found = look(evidence)
         if found:
             return (found,) if isinstance(found, str) else found
@@ -74,8 +76,7 @@ def _of_a_right_motion(evidence: Evidence, failed: Sequence[Verdict]) -> tuple[s
     if drift > 1e-12:
         return (f"quaternion is not normalised: its length is off by up to {drift:.2g}",)
     if "acceleration" in kinds:
-        causes = _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
-        return tuple(f"the motion is right, and accelerations alone are as if {cause}" for cause in causes)
+        return _at_states(evidence)
     if "determinism" in kinds:
         return ("not deterministic: the same cell gives other bits when it is run again",)
     reactions = told_reactions.cause(evidence.cell)
@@ -101,11 +102,13 @@ def _past_the_limit(evidence: Evidence) -> tuple[str, ...]:
 
 
 def _telling(evidence: Evidence) -> str:
+    if max(size(evidence.residual), evidence.inconsistent) <= NOTHING:
+        return ""
     for words, undo in tellings(evidence.scene):
-        cut = evidence.cut(undo)
-        if cut is None or len(cut.q) < 3 or inconsistency(cut, undo(evidence.told)) > NOTHING:
+        cut, told = evidence.cut(undo), undo(evidence.told)
+        if cut is None or len(cut.q) < 3 or inconsistency(cut, told) > NOTHING:
             continue
-        if evidence.followed(cut):
+        if evidence.followed(cut) and evidence.begins(told):
             return words
     return _between_steps(evidence)
 
@@ -113,9 +116,9 @@ def _telling(evidence: Evidence) -> str:
 def _between_steps(evidence: Evidence) -> str:
     """Whether velocities are those of another moment than the positions told beside them."""
     cut = evidence.intervals
-    if cut is None or evidence.scheme == "exact":
-        return ""
     before = size(evidence.residual[1:])
+    if cut is None or evidence.scheme == "exact" or before <= NOTHING:
+        return ""
     for part, words in ((0.5, "half a step"), (1.0, "one step")):
         for way, told in ((1, "late"), (-1, "early")):
             left = size(evidence.of_intervals(_shifted(evidence, cut, way * part))[1:])
@@ -175,31 +178,48 @@ def _steps(stride: int) -> list[tuple[float, int, str]]:
 
 
 def _at_states(evidence: Evidence) -> tuple[str, ...]:
-    """What is wrong in the equations of motion, by the accelerations logged."""
-    return _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
+    """What is wrong in the equations of motion, by accelerations, unless the motion speaks against it."""
+    found = _fitted(evidence, evidence.fit_to_accelerations, evidence.plain)
+    if not found or evidence.intervals is None or evidence.scheme == "exact":
+        return _sentences(found)
+    before = size(evidence.fit_to_motion(evidence.model))
+
+    def agrees(one: Explanation) -> bool:
+        return evidence.explained(size(evidence.fit_to_motion(one.change(evidence.model))), before)
+
+    agreeing = [one for one in found if agrees(one)]
+    if not agreeing and before <= NOTHING:
+        return tuple(f"accelerations alone are as if {s}; the motion is right" for s in _sentences(found))
+    return _sentences(agreeing)
 
 
 def _in_motion(evidence: Evidence) -> tuple[str, ...]:
     """What is wrong in the equations of motion, by the motion."""
-    return _fitted(evidence, evidence.fit_to_motion, evidence.model)
+    return _sentences(_fitted(evidence, evidence.fit_to_motion, evidence.model))
 
 
-def _fitted(evidence: Evidence, residual: Residual, model: Model) -> tuple[str, ...]:
-    """The mistakes that explain a residual equally well, the likeliest first; empty if none does."""
+def _sentences(found: Sequence[Explanation]) -> tuple[str, ...]:
+    """One of each part: plain mistakes first, then round numbers, then as suspects are listed."""
+    ordered = sorted(found, key=lambda e: (e.digits, e.place))
+    return tuple({e.part: e.sentence for e in reversed(ordered)}.values())[::-1]
+
+
+def _fitted(evidence: Evidence, residual: Residual, model: Model) -> list[Explanation]:
+    """The mistakes that explain a residual equally well; none if it is nothing, or none does."""
     before = size(residual(model))
     if before <= NOTHING:
-        return ()
+        return []
     simple = [
-        Explanation(words, size(left), words)
-        for words, other in alternatives(model)
-        if (left := _left(residual, other)) is not None
+        Explanation(words, size(left), words, change=lambda m, make=make: make(m))  # type: ignore[misc]
+        for words, make in alternatives(model)
+        if (left := _left(residual, make(model))) is not None
     ]
-    every = sorted([*simple, *fitted(model, residual, list(suspects(model)))], key=lambda e: e.left)
-    if not every or not evidence.explained(every[0].left, before):
-        return ()
-    equal = [e for e in every if e.left <= max(NOTHING, 3 * every[0].left)]
-    ordered = sorted(equal, key=lambda e: e.place)
-    return tuple({e.part: e.sentence for e in reversed(ordered)}.values())[::-1]
+    every = [*simple, *fitted(model, residual, list(suspects(model)))]
+    if not any(evidence.explained(e.left, before) for e in every):
+        groups = (fitted_together(model, residual, group) for group in several(model))
+        every = [e for e in groups if e is not None]
+    least = min((e.left for e in every), default=np.inf)
+    return [e for e in every if evidence.explained(e.left, before) and e.left <= max(NOTHING, 3 * least)]
 
 
 def _left(residual: Residual, model: Model) -> Array | None:
@@ -219,3 +239,17 @@ def _nothing(cells: Sequence[Cell], failed: Sequence[Verdict]) -> str:
     else:
         ruled = "no one wrong parameter, telling of the state, step or scheme explains the motion"
     return f"{NOT_FOUND}: {ruled}{f'; {orders[0]}' if orders else ''}"
+
+
+#: Where causes are looked for, the surest ways first; the first to find one speaks.
+_LOOKS: tuple[Callable[[Evidence], str | tuple[str, ...]], ...] = (
+    plain,
+    displaced_centres,
+    _at_states,
+    _telling,
+    elsewhere,
+    _stepping,
+    _in_motion,
+    weaker,
+    in_truth,
+)

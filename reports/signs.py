@@ -8,7 +8,7 @@ from ..reference.checked import Array
 from ..scenarios.trajectory import Trajectory
 from .cell import EPSILON
 from .evidence import NOTHING, Evidence
-from .fitting import size
+from .fitting import digits, size
 from .order import ABOVE
 from .tellings import CHANNELS
 from .truth import own_error
@@ -16,6 +16,8 @@ from .truth import own_error
 Sign = Callable[[Evidence], str]
 #: Fewest samples that make a plateau.
 PLATEAU = 5
+#: A clamp is a number that somebody chose: of so few digits.
+ROUND = 3
 
 
 def plain(evidence: Evidence) -> str:
@@ -127,9 +129,14 @@ def _clamped(evidence: Evidence) -> str:
                 top = float(np.abs(mine[1:, k]).max())
                 at = np.abs(np.abs(mine[1:, k]) - top) <= 1e-9 * top
                 beyond = np.abs(its[1:, k]) > top * 1.001
-                if top and (at & beyond).sum() >= PLATEAU and beyond[~at].sum() < at.sum():
+                bounded = (at & beyond).sum() >= PLATEAU and beyond[~at].sum() < at.sum()
+                if top and bounded and (digits(top) <= ROUND or _varies(its[1:, k][at & beyond])):
                     return f"{CHANNELS[name]} is clamped at {top:.6g} {unit}".rstrip()
     return ""
+
+
+def _varies(values: Array) -> bool:
+    return bool(np.ptp(values) > 0.01 * np.abs(values).max())
 
 
 def _copied(evidence: Evidence) -> str:
@@ -193,7 +200,8 @@ def _single(evidence: Evidence) -> str:
         values = values[values.astype(np.float16) != values]
         rounded = values.astype(np.float32)
         # Exact when it was rounded, it may have been turned into other axes and back since.
-        if len(values) > 20 and np.mean(np.abs(rounded - values) < 1e-3 * np.spacing(np.abs(rounded))) > 0.95:
+        exact = np.abs(rounded - values) < 1e-3 * np.spacing(np.abs(rounded))
+        if len(np.unique(rounded)) > 20 and exact.mean() > 0.95:
             return f"{words} is kept in single precision"
     return ""
 

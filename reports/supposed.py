@@ -27,6 +27,7 @@ def changed(link: Link, **parts: Any) -> Link:
 class Model:
     """Equations of motion that a run may have followed: the scene's, or with something else in them.
 
+    Where coordinates are ``by_centres``, those of a free body are of its centre of mass, wherever that is.
     ``added(q, v)`` is a further force (n, nv) along the velocities.
     """
 
@@ -35,11 +36,24 @@ class Model:
     gravity: Array
     forces: tuple[Force, ...]
     added: Callable[[Array, Array], Array] | None = None
+    by_centres: bool = False
 
     @classmethod
-    def of(cls, scene: Scene) -> "Model":
+    def of(cls, scene: Scene, by_centres: bool = False) -> "Model":
         """The scene's own equations."""
-        return cls(scene, tuple(links(scene)), np.array(scene.gravity), scene.forces)
+        gravity = np.array(scene.gravity)
+        return cls(scene, tuple(links(scene)), gravity, scene.forces, by_centres=by_centres)
+
+    def displaced(self, body: int, by: Array) -> "Model":
+        """The same with a body's centre of mass elsewhere, ``by`` (3,) [m] in its own axes."""
+        own = self.links[body]
+        if not (self.by_centres and any(joint.kind == "free" for joint in own.joints)):
+            return self.with_link(body, com=np.asarray(own.com) + by)
+        model = self
+        for at, link in enumerate(self.links):
+            if link.parent == body:
+                model = model.with_link(at, position=np.asarray(link.position) - by)
+        return model
 
     def with_link(self, body: int, **parts: Any) -> "Model":
         """The same with other parts of one link."""

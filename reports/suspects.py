@@ -1,6 +1,6 @@
 """What may be wrong in an engine's equations of motion: one number each, and the sentence that names it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
@@ -19,11 +19,21 @@ class Suspect:
     """``change(model, x)`` puts it in; x = 0 is right. ``words(x)`` say what x means.
 
     Of several suspects of one ``part`` that explain a motion equally well, the first to be listed speaks.
+    ``value(x)`` is the number that somebody may have got wrong: it is likely to be a round one.
     """
 
     change: Change
     words: Callable[[float], str]
     part: str = ""
+    value: Callable[[float], float] = lambda x: x
+
+
+@dataclass(frozen=True)
+class Several:
+    """Suspects that may be wrong together, and what to say of all their numbers."""
+
+    members: tuple[Suspect, ...]
+    words: Callable[[Sequence[float]], str]
 
 
 def suspects(model: Model) -> Iterator[Suspect]:
@@ -40,32 +50,77 @@ def suspects(model: Model) -> Iterator[Suspect]:
         yield from _together(model)
 
 
-def alternatives(model: Model) -> Iterator[tuple[str, Model]]:
-    """Models that differ from the scene's by a plain mistake, with no number to fit."""
+def several(model: Model) -> Iterator[Several]:
+    """What may be wrong in more numbers than one, for when no single one explains a motion."""
+    if np.any(model.gravity):
+        members = tuple(_along_axes(model))
+        size = float(np.linalg.norm(model.gravity))
+        yield Several(members, lambda x: f"gravity is {_vector(model.gravity + size * np.array(x))} m/s²")
+    for at, body in enumerate(model.scene.bodies):
+        mine = tuple(_body(model, at))
+        for part in ("centre", "inertia"):
+            members = tuple(s for s in mine if s.part.startswith(f"{part} {body.name} "))
+            yield Several(members, _said(body.name, part, members))
+
+
+def _along_axes(model: Model) -> Iterator[Suspect]:
+    size = float(np.linalg.norm(model.gravity))
+    for axis in np.eye(3):
+        yield Suspect(lambda m, x, axis=axis: replace(m, gravity=m.gravity + x * size * axis), str)  # type: ignore[misc]
+
+
+def _said(name: str, part: str, members: Sequence[Suspect]) -> Callable[[Sequence[float]], str]:
+    """The members' own words, of those numbers that matter."""
+
+    def words(numbers: Sequence[float]) -> str:
+        least = 1e-6 * max(map(abs, numbers))
+        told = [s.words(x) for s, x in zip(members, numbers, strict=True) if abs(x) > least]
+        if part == "inertia":
+            return (
+                told[0]
+                if len(told) == 1
+                else f"it is as if of the inertia of body {name!r} {', '.join(told)}"
+            )
+        return " and ".join([told[0], *(words.partition("displaced ")[2] for words in told[1:])])
+
+    return words
+
+
+def _vector(values: Array) -> str:
+    return f"({', '.join(f'{value:.6g}' for value in values)})"
+
+
+def alternatives(model: Model) -> Iterator[tuple[str, Callable[[Model], Model]]]:
+    """Plain mistakes, with no number to fit: what to say, and what makes it of a model."""
     for place, (body, link) in enumerate(zip(model.scene.bodies, model.links, strict=True)):
-        tensor, com = np.asarray(link.inertia), np.asarray(link.com)
+        name, tensor, com = body.name, np.asarray(link.inertia), np.asarray(link.com)
         for order in ((0, 2, 1), (2, 1, 0), (1, 0, 2), (1, 2, 0), (2, 0, 1)):
             turned = tensor[np.ix_(order, order)]
             if not np.allclose(turned, tensor, rtol=1e-12, atol=0):
-                yield (
-                    f"inertia axes of body {body.name!r} are permuted",
-                    model.with_link(place, inertia=turned),
-                )
+                yield f"inertia axes of body {name!r} are permuted", _with(place, inertia=turned)
         if np.any(tensor - np.diag(np.diag(tensor))):
-            name = f"rotation of the inertia of body {body.name!r} is lost"
-            yield name, model.with_link(place, inertia=np.diag(np.linalg.eigvalsh(tensor)))
-            yield name, model.with_link(place, inertia=np.diag(np.linalg.eigvalsh(tensor)[::-1]))
-            lost = f"products of inertia of body {body.name!r} are lost"
-            yield lost, model.with_link(place, inertia=np.diag(np.diag(tensor)))
+            for moments in (np.linalg.eigvalsh(tensor), np.linalg.eigvalsh(tensor)[::-1]):
+                yield (
+                    f"rotation of the inertia of body {name!r} is lost",
+                    _with(place, inertia=np.diag(moments)),
+                )
+            lost = np.diag(np.diag(tensor))
+            yield f"products of inertia of body {name!r} are lost", _with(place, inertia=lost)
+            opposite = 2 * lost - tensor
+            yield f"products of inertia of body {name!r} have the wrong sign", _with(place, inertia=opposite)
         if np.any(com):
             moved = link.mass * (com @ com * np.eye(3) - np.outer(com, com))
-            for sign in (1, -1):
-                words = (
-                    f"inertia of body {body.name!r} is taken about its {'frame' if sign > 0 else 'centre'}"
-                )
-                at = ", not its centre of mass" if sign > 0 else " of mass twice"
-                yield words + at, model.with_link(place, inertia=tensor + sign * moved)
-            yield f"centre of mass of body {body.name!r} is at its frame", model.with_link(place, com=0 * com)
+            words = f"inertia of body {name!r} is taken as if it were about"
+            yield f"{words} the frame, not the centre of mass", _with(place, inertia=tensor - moved)
+            yield (
+                f"{words} the centre of mass when it is about the frame",
+                _with(place, inertia=tensor + moved),
+            )
+            yield f"centre of mass of body {name!r} is at its frame", _with(place, com=0 * com)
+
+
+def _with(place: int, **parts: Array) -> Callable[[Model], Model]:
+    return lambda model: model.with_link(place, **parts)
 
 
 def share(x: float) -> str:
@@ -83,7 +138,9 @@ def _gravity(model: Model) -> Iterator[Suspect]:
             return "gravity is missing"
         return f"gravity is {size * (1 + x):.9g} m/s², not {size:.9g}"
 
-    yield Suspect(lambda m, x: replace(m, gravity=m.gravity * (1 + x)), words, "gravity")
+    yield Suspect(
+        lambda m, x: replace(m, gravity=m.gravity * (1 + x)), words, "gravity", lambda x: size * (1 + x)
+    )
     for side in np.eye(3)[[abs(axis @ model.gravity) < 0.5 * size for axis in np.eye(3)]]:
         yield Suspect(
             lambda m, x, side=side: replace(m, gravity=m.gravity + x * size * side),  # type: ignore[misc]
@@ -98,23 +155,23 @@ def _body(model: Model, at: int) -> Iterator[Suspect]:
     size = float(np.trace(tensor)) / 3
 
     def mass(m: Model, x: float) -> Model:
-        return m.with_link(at, mass=link.mass * (1 + x))
+        return m.with_link(at, mass=m.links[at].mass * (1 + x))
 
     def dense(m: Model, x: float) -> Model:
-        return m.with_link(at, mass=link.mass * (1 + x), inertia=tensor * (1 + x))
+        return mass(m.with_link(at, inertia=np.asarray(m.links[at].inertia) * (1 + x)), x)
 
     yield Suspect(mass, lambda x: f"mass of body {name!r} is {share(x)}", f"mass {name}")
     if size:
         yield Suspect(dense, lambda x: f"mass and inertia of body {name!r} are {share(x)}", f"mass {name}")
         yield Suspect(
-            lambda m, x: m.with_link(at, inertia=tensor * (1 + x)),
+            lambda m, x: m.with_link(at, inertia=np.asarray(m.links[at].inertia) * (1 + x)),
             lambda x: f"inertia of body {name!r} is {share(x)}",
             f"inertia {name}",
         )
     reach = float(np.linalg.norm(com)) or (size / link.mass) ** 0.5 or 1.0
     for k in range(3):
         yield Suspect(
-            lambda m, x, k=k: m.with_link(at, com=com + x * reach * np.eye(3)[k]),  # type: ignore[misc]
+            lambda m, x, k=k: m.displaced(at, x * reach * np.eye(3)[k]),  # type: ignore[misc]
             lambda x, k=k: (  # type: ignore[misc]
                 f"centre of mass of body {name!r} is displaced by {x * reach:.3g} m along its axis {k + 1}"
             ),
@@ -134,7 +191,10 @@ def _element(at: int, name: str, tensor: Array, i: int, j: int, size: float) -> 
             return f"moment I{i + 1} of body {name!r} is {share(x)}"
         return f"product of inertia I{i + 1}{j + 1} of body {name!r} is off by {x * size:.3g} kg m²"
 
-    return Suspect(lambda m, x: m.with_link(at, inertia=tensor + x * unit), words, f"inertia {name} {i} {j}")
+    def change(m: Model, x: float) -> Model:
+        return m.with_link(at, inertia=np.asarray(m.links[at].inertia) + x * unit)
+
+    return Suspect(change, words, f"inertia {name} {i} {j}")
 
 
 def _together(model: Model) -> Iterator[Suspect]:
@@ -285,7 +345,12 @@ def _forced(at: int, force: Callable[[Array, Array], Array]) -> Change:
 
 def _added(term: Callable[[Model, Array, Array], Array]) -> Change:
     """X times more of a ``term`` that stands on the side of inertia."""
-    return lambda m, x: replace(m, added=lambda q, v: -x * term(m, q, v))
+
+    def changed(m: Model, x: float) -> Model:
+        before = m.added
+        return replace(m, added=lambda q, v: (before(q, v) if before else 0.0) - x * term(m, q, v))
+
+    return changed
 
 
 def _bias(m: Model, q: Array, v: Array) -> Array:
