@@ -51,11 +51,13 @@ def _finding(
 
 
 def _checks(found: list[tuple[Group, Record, float]]) -> str:
-    """Every check that a recorded reason speaks of, with what it was made on."""
-    of: dict[str, dict[str, None]] = {}
-    for _, record, _ in found:
-        of.setdefault(record["check"], {})[record["observable"]] = None
-    return "; ".join(f"{check} of {', '.join(observables)}" for check, observables in of.items())
+    """The checks that a recorded reason speaks of: how many of each kind, over all that they are made on."""
+    of: dict[str, set[tuple[str, str, str]]] = {}
+    for group, record, _ in found:
+        place = (group.scene, group.column.label, record["observable"])
+        of.setdefault(record["check"], set()).add(place)
+    kinds = ", ".join(f"{len(places)} of {check}" for check, places in of.items())
+    return f"seen in {kinds}"
 
 
 def _numbers(record: Record, dt: float) -> str:

@@ -41,6 +41,11 @@ FEATURES: dict[str, str] = {
     "hollow": "solids with a hollow",
 }
 
+#: Features that only have a meaning beside another: not told of as left out where that one is.
+DETAILS: dict[str, str] = {
+    "friction": "contact", "rim": "contact", "ellipsoid": "solid", "shell": "solid", "hollow": "solid",
+}  # fmt: skip
+
 #: What no scene gets unless a later feature names it, in words for the report.
 NEVER_BUILT = ("collision shapes", "contact solver", "actuators", "sensors", "renderer", "ground")
 
@@ -167,7 +172,9 @@ class Scene:
         if any(contact.second is None for contact in self.contacts):
             needed.add("ground")
         never = [part for part in NEVER_BUILT if part not in needed]
-        return (*(words for name, words in FEATURES.items() if name not in self.features), *never)
+        missing = [name for name in FEATURES if name not in self.features]
+        told = [FEATURES[name] for name in missing if DETAILS.get(name) not in missing]
+        return (*told, *never)
 
     def sample_times(self) -> Array:
         """Times of the samples, (samples + 1,) [s], the start included."""

@@ -94,7 +94,14 @@ def test_a_recorded_reason_is_said_once_with_every_check_that_it_speaks_of(resul
                 verdict.update(**wrong, message=f"{verdict['observable']} is off; known: it squints")
     (finding,) = [f for f in told(changed, Status.KNOWN) if f.sentence == "it squints"]
     assert finding.where == "pybullet reduced on heavy_top[moderate]"
-    kinds = {v["check"] for c in changed["cells"] for v in c["verdicts"] if "squints" in v["message"]}
-    assert len(kinds) > 1
-    assert {part.split(" of ")[0] for part in finding.about.split("; ")} == kinds
+    off = {
+        (v["check"], v["observable"])
+        for c in changed["cells"]
+        for v in c["verdicts"]
+        if "squints" in v["message"]
+    }
+    counts = finding.about.removeprefix("seen in ").split(", ")
+    kinds = [check for check, _ in off]
+    assert {tuple(part.split(" of ")) for part in counts} == {(str(kinds.count(k)), k) for k in kinds}
+    assert len(set(kinds)) > 1
     assert " at worst, dt " in finding.numbers

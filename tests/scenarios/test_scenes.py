@@ -9,7 +9,7 @@ from poinsot.reference import equations_of_motion, quaternions
 from poinsot.scenarios import co2_chain
 from poinsot.scenarios.forces import forces_on
 from poinsot.scenarios.registry import scenes
-from poinsot.scenarios.scene import FEATURES, NEVER_BUILT
+from poinsot.scenarios.scene import DETAILS, FEATURES, NEVER_BUILT
 from scipy.integrate import solve_ivp
 
 EVERY = pytest.mark.parametrize("scene", scenes().values(), ids=lambda scene: scene.full_name)
@@ -176,7 +176,9 @@ def test_what_is_built_and_what_is_left_out_are_everything_there_is(scene):
     touched = {"collision shapes", "contact solver"} if scene.contacts else set()
     touched |= {"ground"} if any(contact.second is None for contact in scene.contacts) else set()
     assert touched.isdisjoint(scene.left_out)
-    assert built | touched | set(scene.left_out) == {*FEATURES.values(), *NEVER_BUILT}
+    within = {FEATURES[part] for part, whole in DETAILS.items() if whole not in scene.features}
+    assert within.isdisjoint(scene.left_out)
+    assert built | touched | within | set(scene.left_out) == {*FEATURES.values(), *NEVER_BUILT}
 
 
 @pytest.mark.parametrize(
