@@ -202,7 +202,7 @@ class Busy(PyBullet):
 class Motored(Busy):
     """Leaves on the motors that PyBullet's joints are born with."""
 
-    def awake(self, quieted, p, client, uid):
+    def awake(self, quieted, p, client, uid, scene):
         for link in range(p.getNumJoints(uid, client)):
             yield p.getJointInfo(uid, link, client)[1].decode(), (uid, link)
 
@@ -210,17 +210,17 @@ class Motored(Busy):
 class Driven(Busy):
     """Has one weak motor."""
 
-    def awake(self, quieted, p, client, uid):
-        yield from quieted(p, client, uid)
+    def awake(self, quieted, p, client, uid, scene):
+        yield from quieted(p, client, uid, scene)
         p.setJointMotorControl2(uid, 0, p.VELOCITY_CONTROL, force=1e-9, physicsClientId=client)
 
 
 class Sensing(Busy):
     """Has a sensor of force in the first joint of each tree."""
 
-    def awake(self, quieted, p, client, uid):
+    def awake(self, quieted, p, client, uid, scene):
         p.enableJointForceTorqueSensor(uid, 0, 1, client)
-        yield from quieted(p, client, uid)
+        yield from quieted(p, client, uid, scene)
 
 
 class Framed(Pinocchio):
