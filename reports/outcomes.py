@@ -93,7 +93,7 @@ def _outcome(motion: Trajectory, truth: Trajectory, energies: Array, error: floa
         return Outcome.NOT_FINITE
     if _clamped(motion, truth):
         return Outcome.CLAMPED
-    if _calm_after_storm(energies):
+    if _starts_again(motion, energies):
         return Outcome.RESET
     if error <= ACCURATE:
         return Outcome.ACCURATE
@@ -124,21 +124,28 @@ def _reset(motion: Trajectory, truth: Trajectory, energies: Array) -> bool:
     if np.any(finite[1:] & ~finite[:-1]):
         return True
     moving = np.asarray(_speeds(truth).any(axis=1))
-    still = np.asarray(~_speeds(motion).any(axis=1) & moving)
+    still = np.asarray(~_speeds(motion).any(axis=1))
     # What is damped away gets there by and by; below a tenth of its energy it may well be at rest next. A
     # damper may stop a body at once, but not where all its joints are at zero.
     zero = np.asarray(~motion.joint_position.any(axis=1))
-    stopped = still[1:] & zero[1:] & (energies[:-1] > 0.1)
+    stopped = still[1:] & zero[1:] & (energies[:-1] > 0.1) & (moving[1:] | (energies[:-1] > GROWTH))
     everything = np.hstack([_speeds(motion), _places(motion)])
     as_at_start = np.asarray((everything == everything[0]).all(axis=1))
     stays = as_at_start[1:] & as_at_start[:-1] & moving[1:]
     return bool(stopped.any() or stays.any())
 
 
-def _calm_after_storm(energies: Array) -> bool:
-    """Whether energy beyond what any stable scheme reaches is followed by what the start has."""
+def _starts_again(motion: Trajectory, energies: Array) -> bool:
+    """Whether energy beyond what any stable scheme reaches is followed by states from before, bit for bit.
+
+    That it falls again is not enough: where rounding changes what grows, a scheme may calm down by itself.
+    """
     storm = np.flatnonzero(energies > BEYOND)
-    return bool(storm.size and (energies[storm[0] :] < GROWTH).any())
+    if not storm.size:
+        return False
+    states = np.hstack([_speeds(motion), _places(motion)])
+    before = {state.tobytes() for state in states[: storm[0]]}
+    return any(state.tobytes() in before for state in states[storm[0] :])
 
 
 def _clamped(motion: Trajectory, truth: Trajectory) -> bool:

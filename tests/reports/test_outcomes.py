@@ -162,6 +162,21 @@ def test_a_reset_of_a_free_body_is_seen(dt):
     assert judged(scene, observe(scene, Resetting, MuJoCo.schemes[0], dt, 4000)).outcome is Outcome.RESET
 
 
+def test_a_storm_that_calms_down_by_itself_is_no_reset():
+    # Its ω grows until rounding has taken from ω3, about which it then precesses slowly enough to be stable.
+    scene = extreme_tops.spin(316.0)
+    scheme = next(s for s in Pinocchio.schemes if s.name == "RKMK4")
+    found = judged(scene, observe(scene, Pinocchio, scheme, 0.01, 4000))
+    assert found.outcome is Outcome.GROWING
+    assert found.energy_last < 1 < 1e6 < found.energy_most
+
+
+def test_what_an_implicit_scheme_leaves_is_no_clamp():
+    scene = extreme_tops.spin(1e5)
+    scheme = next(s for s in Pinocchio.schemes if s.name == "implicit gyroscopic")
+    assert judged(scene, observe(scene, Pinocchio, scheme, 1.0, 4000)).outcome is Outcome.BOUNDED
+
+
 class Speechless(Pinocchio):
     """Complains of a sound run."""
 
