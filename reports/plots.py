@@ -23,6 +23,8 @@ TRUTH_POINTS = 2001
 RUN_POINTS = 400
 #: A curve that goes this many times further out than the truth is cut off there.
 FAR = 4.0
+#: A run that is further from another of its order than this part of the truth's size is shown at first.
+APART = 0.1
 SYMBOLS = ("circle", "square", "diamond", "triangle-up", "cross", "x", "triangle-down", "pentagon", "star")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
@@ -170,8 +172,9 @@ def _picture(
     exact = _points(scene, picture, truth)
     low, high = exact[:, 1:].min(axis=0), exact[:, 1:].max(axis=0)
     reach = FAR * _reach(high - low, picture.equal)
-    shown = _first_shown([column for column, _ in runs])
-    curves = [_curve(column, _points(scene, picture, run), (low + high) / 2, reach) for column, run in runs]
+    drawn = [(column, _points(scene, picture, run)) for column, run in runs]
+    shown = _first_shown(drawn, APART / FAR * reach)
+    curves = [_curve(column, points, (low + high) / 2, reach) for column, points in drawn]
     for curve, (column, _) in zip(curves, runs, strict=True):
         curve["shown"] = column in shown
     return {
@@ -213,10 +216,20 @@ def _points(scene: Scene, picture: Picture, motion: Trajectory) -> Array:
     return np.column_stack([motion.t, picture.points(scene, motion)])
 
 
-def _first_shown(columns: list[Column]) -> list[Column]:
-    """What a reader sees before choosing: a scheme of the lowest order, and one of the highest."""
-    ordered = sorted(columns, key=lambda column: column.order or 0)
-    return [*ordered[:1], *(column for column in ordered[-1:] if column.order != ordered[0].order)]
+def _first_shown(drawn: list[tuple[Column, Array]], apart: Array) -> list[Column]:
+    """What a reader sees before choosing: a scheme of the lowest order, one of the highest, and what differs.
+
+    That is what is anywhere further than ``apart`` (k,) from the one of its own order.
+    """
+    ordered = sorted(drawn, key=lambda pair: pair[0].order or 0)
+    typical = {column.order: (column, points) for column, points in (*ordered[-1:], *ordered[:1])}
+    found = [typical[column.order][0] for column, _ in (*ordered[:1], *ordered[-1:])]
+    for column, points in drawn:
+        _, usual = typical.get(column.order, (column, points))
+        with np.errstate(invalid="ignore"):
+            near = len(points) == len(usual) and (abs(points - usual)[:, 1:] <= apart).all()
+        found += [] if near else [column]
+    return list(dict.fromkeys(found))
 
 
 def _packed(points: Array) -> Figure:
