@@ -75,7 +75,7 @@ def _labels(values: Sequence[float], steps: Sequence[float], parameter: str) -> 
         if math.isclose(math.log10(step), round(math.log10(step)), abs_tol=1e-3)
     ]
     columns = [
-        text.format(_left(k) + WIDTH / 2, low + 13, "middle", _short(value)) for k, value in enumerate(values)
+        text.format(_left(k) + WIDTH / 2, low + 13, "value", _short(value)) for k, value in enumerate(values)
     ]
     middle = LEFT + WIDTH * len(values) / 2
     return [

@@ -110,9 +110,9 @@ def _range(limits: list[Any]) -> str:
 
 
 def _past(found: Mapping[str, Any]) -> tuple[str, str, list[tuple[Markup, Outcome, int]], str] | None:
-    """Family, scheme, what becomes of runs past theory's limit and of how many, and what is said then."""
+    """Family, scheme, what becomes of runs past the limit and of how many, and what is said then."""
     theory = {row["value"]: row["limit"] for row in found["theory"]}
-    past = [point for point in found["points"] if _is_past(point["dt"], theory[point["value"]])]
+    past = [point for point in found["points"] if _is_past(point, theory[point["value"]])]
     if not past:
         return None
     counts = Counter(Outcome(point["outcome"]) for point in past)
@@ -121,5 +121,8 @@ def _past(found: Mapping[str, Any]) -> tuple[str, str, list[tuple[Markup, Outcom
     return found["family"], who(found), shown, "; ".join(text for text, _ in said.most_common(2))
 
 
-def _is_past(dt: float, limit: float | str | None) -> bool:
-    return isinstance(limit, float | int) and dt > limit * (1 + TOLERANCE)
+def _is_past(point: Mapping[str, Any], limit: float | str | None) -> bool:
+    """Whether a run's step is past theory's limit; where theory knows none, whether the run went wrong."""
+    if limit is None:
+        return Outcome(point["outcome"]) not in (Outcome.ACCURATE, Outcome.BOUNDED)
+    return isinstance(limit, float | int) and float(point["dt"]) > limit * (1 + TOLERANCE)

@@ -162,3 +162,13 @@ def test_status_of_a_limit_is_that_of_the_check():
     sweep = Sweep("stiff_spring", "alpha", "1.0", "own", "semi-implicit Euler")
     verdict = stability.verdict("stiff_spring[100]", sweep, 1e-3, GOOD, 0.2)
     assert (verdict.check, verdict.status, verdict.scene) == ("stability", Status.PASS, "stiff_spring[100]")
+
+
+def test_where_theory_knows_no_limit_what_went_wrong_is_past_it(tmp_path):
+    points = [(100.0, dt) for dt in SPRING.steps[: len(Outcome)]]
+    stability_page.render(made(twin="one's own", points=points), tmp_path / "page.html")
+    past = (tmp_path / "page.html").read_text(encoding="utf-8").partition('id="past"')[2]
+    rows = past.partition("</table>")[0]
+    for outcome in Outcome:
+        fine = outcome in (Outcome.ACCURATE, Outcome.BOUNDED)
+        assert (f" 1 {outcome.value}" in rows) != fine
