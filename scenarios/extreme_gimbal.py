@@ -11,8 +11,8 @@ from .body import Body, Joint, diagonal
 from .scene import Scene
 from .trajectory import Trajectory, about_fixed_point
 
-#: How far from gimbal lock the axis starts [rad], for no step to end in it; how fast the body turns [rad/s];
-#: how it is turned at first.
+#: How far from gimbal lock the axis starts [rad]: steps of 1e-3 and 1e-4 s end in it, others pass it. How
+#: fast the body turns [rad/s]; how it is turned at first.
 START, SPEED, TURNED = 0.517, 1.0, (0.4, -1.1)
 #: The middle moment twice [kg m²]: turning about any axis across e3 is then steady.
 MOMENTS = (0.02, 0.02, 0.015)

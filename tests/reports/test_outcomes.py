@@ -16,8 +16,9 @@ from poinsot.adapters.observed import SAMPLES, Observed, observe
 from poinsot.adapters.pinocchio_ import Pinocchio
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.reference.errors import InputError
+from poinsot.reports import stability_page
 from poinsot.reports.outcomes import Outcome, judged
-from poinsot.scenarios import extreme_damper, extreme_tops
+from poinsot.scenarios import extreme_damper, extreme_gimbal, extreme_tops
 from poinsot.scenarios.stiff_spring import on_spring
 from wrong_engines.stability import ClampedSpring
 
@@ -175,6 +176,20 @@ def test_what_an_implicit_scheme_leaves_is_no_clamp():
     scene = extreme_tops.spin(1e5)
     scheme = next(s for s in Pinocchio.schemes if s.name == "implicit gyroscopic")
     assert judged(scene, observe(scene, Pinocchio, scheme, 1.0, 4000)).outcome is Outcome.BOUNDED
+
+
+@pytest.mark.parametrize(
+    ("engine", "said"), [(MuJoCo, "mjWARN_INERTIA"), (PyBullet, ""), (Pinocchio, "left the finite numbers")]
+)
+def test_a_step_that_ends_in_gimbal_lock(engine, said):
+    recorded = {name.split()[0]: (name, outcome) for name, outcome, _ in stability_page.IN_GIMBAL_LOCK}
+    scene = extreme_gimbal.near_gimbal_lock(1e-12)
+    found = judged(scene, observe(scene, engine, engine.schemes[0], 1e-3, 20_000))
+    assert (f"{engine.name} {engine.version()}", found.outcome) == recorded[engine.name]
+    assert said in found.said
+    # A step that passes it sees nothing.
+    passed = judged(scene, observe(scene, engine, engine.schemes[0], 4.64e-3, 20_000))
+    assert (passed.outcome, passed.said) == (Outcome.ACCURATE, "")
 
 
 class Speechless(Pinocchio):
