@@ -149,7 +149,9 @@ class Evidence:
     def _weights(self) -> Array:
         """From accelerations to forces (n, nv, nv), as parts of the largest in the scene's own equations."""
         exact = expected(self.scene)
-        return np.asarray(exact.inertia / (exact.unit * exact.size[:, None])[..., None])
+        # Where no force acts at all, rounding has no size of its own.
+        size_of = np.maximum(exact.size, 1e-6 * np.median(exact.size))
+        return np.asarray(exact.inertia / (exact.unit * size_of[:, None])[..., None])
 
     @cached_property
     def plain(self) -> Model:

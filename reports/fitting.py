@@ -45,13 +45,19 @@ def size(residual: Array) -> float:
 
 def fitted(model: Model, residual: Residual, every: Sequence[Suspect]) -> list[Explanation]:
     """The most likely of the suspects, best first, each with the number that explains most."""
+    with np.errstate(all="ignore"):
+        return _fitted(model, residual, every)
+
+
+def _fitted(model: Model, residual: Residual, every: Sequence[Suspect]) -> list[Explanation]:
     start = residual(model)
     ranked = []
     for place, suspect in enumerate(every):
         slope = _slope(model, residual, suspect, 0.0, start)
         if slope is not None and slope @ slope > 0:
             x = -float(slope @ start) / float(slope @ slope)
-            ranked.append((size(start + x * slope), x, place))
+            if np.isfinite(x):
+                ranked.append((size(start + x * slope), x, place))
     ranked.sort(key=lambda found: found[0])
     refined = [_refined(model, residual, every[place], x, place) for _, x, place in ranked[:REFINED]]
     return sorted(refined, key=lambda found: found.left)

@@ -12,7 +12,7 @@ from time import perf_counter
 import numpy as np
 
 from ..reference.checked import Array
-from ..reference.errors import InputError
+from ..reference.errors import InputError, PoinsotError
 from ..reference.tree_schemes import moved
 from . import told_reactions
 from .by_truth import in_truth
@@ -52,7 +52,13 @@ def localised(cells: Sequence[Cell], verdicts: Iterable[Verdict]) -> list[Locali
             late = f"{NOT_FOUND}: not looked into, after {len(result)} others"
             result.append(Localisation(ladder, (late,), found=False))
             continue
-        causes = _causes(mine, failed[ladder])
+        try:
+            causes = _causes(mine, failed[ladder])
+        except (ArithmeticError, ValueError, PoinsotError) as error:
+            # A report says what failed, whether or not it can say why.
+            broken = f"{NOT_FOUND}: the search for a cause broke down ({error})"
+            result.append(Localisation(ladder, (broken,), found=False))
+            continue
         result.append(Localisation(ladder, causes or (_nothing(mine, failed[ladder]),), bool(causes)))
     return result
 
@@ -144,11 +150,34 @@ def _stepping(evidence: Evidence) -> str:
     for stretch, steps, words in _steps(cut.stride):
         if evidence.followed(cut, stretch=stretch, steps=steps):
             return words
+    clock = _clock(evidence, cut)
+    if clock:
+        return clock
     for scheme, words in _SCHEMES.items():
         affordable = scheme != IMPLICIT or len(evidence.scene.v0) <= MANY
         if scheme != evidence.scheme and affordable and evidence.followed(cut, scheme):
             return words.format(declared=evidence.declared)
     return ""
+
+
+def _clock(evidence: Evidence, cut: Intervals) -> str:
+    """Whether steps of a slightly other length explain every interval."""
+    x, width, which = 0.0, 1e-6, np.arange(0, len(cut.q) - 1, 5)
+
+    def residual(x: float) -> Array:
+        return cut.residual(evidence.model, evidence.scheme, which, stretch=1 + x).ravel()
+
+    for _ in range(4):
+        now = residual(x)
+        slope = (residual(x + width) - now) / width
+        if not np.isfinite(slope).all() or not slope @ slope > 0:
+            return ""
+        x -= float(slope @ now) / float(slope @ slope)
+        if not abs(x) < 0.5:
+            return ""
+    if not evidence.followed(cut, stretch=1 + x):
+        return ""
+    return f"step is {1 + x:.9g} times the stated one: time runs so much {'faster' if x > 0 else 'slower'}"
 
 
 _SCHEMES = {

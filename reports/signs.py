@@ -92,13 +92,14 @@ def _jump(evidence: Evidence) -> str:
         return ""
     bad = np.flatnonzero(evidence.per_interval > NOTHING)
     n = len(evidence.per_interval)
-    if not len(bad) or len(bad) > max(2, n // 20) or evidence.inconsistent > NOTHING:
-        return ""
-    if _clamped(evidence):
+    if not len(bad) or len(bad) > max(2, n // 20) or _clamped(evidence):
         return ""
     at = int(bad[0])
     t = evidence.told.t[at]
-    start = np.hstack([cut.q[0], cut.v[0]])
+    if len(bad) == 2 and bad[1] == at + 1:
+        return f"the sample at t = {evidence.told.t[at + 1]:g} s is wrong, and no other"
+    if evidence.inconsistent > NOTHING:
+        return ""
     if at and any(
         np.allclose(
             np.hstack(_forward(evidence, steps)), np.hstack([cut.q[at + 1], cut.v[at + 1]]), atol=1e-9
@@ -106,8 +107,6 @@ def _jump(evidence: Evidence) -> str:
         for steps in range(cut.stride + 1)
     ):
         return f"state was reset to the start between t = {t:g} s and {evidence.told.t[at + 1]:g} s"
-    if len(bad) == 2 and bad[1] == at + 1 and np.isfinite(start).all():
-        return f"the sample at t = {evidence.told.t[at + 1]:g} s is wrong, and no other"
     return f"state jumps between t = {t:g} s and {evidence.told.t[at + 1]:g} s, and is right before and after"
 
 
@@ -194,6 +193,7 @@ def _interpolated(evidence: Evidence) -> str:
 
 def _single(evidence: Evidence) -> str:
     """Whether a part of the state has no more digits than single precision keeps."""
+    found = []
     for name, words in CHANNELS.items():
         values = getattr(evidence.told, name)[1:].ravel()
         # What has few digits anyway, as 0 and whole numbers, tells nothing.
@@ -202,8 +202,14 @@ def _single(evidence: Evidence) -> str:
         # Exact when it was rounded, it may have been turned into other axes and back since.
         exact = np.abs(rounded - values) < 1e-3 * np.spacing(np.abs(rounded))
         if len(np.unique(rounded)) > 20 and exact.mean() > 0.95:
-            return f"{words} is kept in single precision"
-    return ""
+            found.append(words)
+    if len(found) > 2:
+        return "state is kept in single precision"
+    return (
+        f"{' and '.join(found)} {'is' if len(found) == 1 else 'are'} kept in single precision"
+        if found
+        else ""
+    )
 
 
 def _unfitting(evidence: Evidence) -> str:

@@ -217,7 +217,16 @@ def _together(model: Model) -> Iterator[Suspect]:
                 result[..., at_v] = joint.stiffness * q[..., at_q]
         return result
 
+    def slack(m: Model, q: Array, v: Array) -> Array:
+        result = np.zeros_like(v)
+        for _, joint, _, at_v in m.scene.slices():
+            if joint.kind in ("hinge", "slide"):
+                result[..., at_v] = -joint.stiffness
+        return result
+
     if sum(bool(joint.stiffness) for joint in model.scene.joints) > 1:
+        rest = "rest positions of the springs of all joints are off by"
+        yield Suspect(_added(slack), lambda x: f"{rest} {x:.3g}", "all rests")
         yield Suspect(
             _added(springs), lambda x: f"spring stiffness of all joints is {share(x)}", "all springs"
         )
