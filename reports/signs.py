@@ -129,6 +129,8 @@ def _clamped(evidence: Evidence) -> str:
                 at = np.abs(np.abs(mine[1:, k]) - top) <= 1e-9 * top
                 beyond = np.abs(its[1:, k]) > top * 1.001
                 bounded = (at & beyond).sum() >= PLATEAU and beyond[~at].sum() < at.sum()
+                # What was so from the start is no clamp's doing.
+                bounded &= bool(np.ptp(np.abs(mine[:, k])) > 1e-6 * top)
                 if top and bounded and (digits(top) <= ROUND or _varies(its[1:, k][at & beyond])):
                     return f"{CHANNELS[name]} is clamped at {top:.6g} {unit}".rstrip()
     return ""

@@ -63,7 +63,7 @@ class OffCentre(Lying, Pinocchio):
 
     def mistaken(self, scene):
         body = scene.bodies[0]
-        centre = np.array(body.center_of_mass) + [1e-3, -2e-3, 3e-3]
+        centre = np.add(body.center_of_mass, (1e-3, -2e-3, 3e-3))
         return replace(
             scene, bodies=(replace(body, center_of_mass=tuple(centre.tolist())), *scene.bodies[1:])
         )
