@@ -8,6 +8,9 @@ from ..reference.checked import Array
 from ..reference.errors import PoinsotError
 from ..scenarios.scene import Scene
 
+#: The settings of an engine in a scene that leaves it to its defaults.
+AS_IT_COMES = {"in scenes [defaults]": "damping, limits and contacts as the engine comes"}
+
 
 class EngineError(PoinsotError):
     """The engine broke down while it ran: reset itself, warned, or left the finite numbers.
@@ -119,6 +122,11 @@ class Engine(Protocol):
     def close(self) -> None:
         """Let go of what ``build`` made."""
         ...
+
+
+def settings_in(engine: type[Engine], scene: Scene) -> dict[str, str]:
+    """The settings of ``engine``, in words, with which it runs ``scene``."""
+    return dict(AS_IT_COMES if scene.defaults else engine.settings)
 
 
 @runtime_checkable

@@ -12,7 +12,7 @@ from ..reference.errors import InputError
 from ..scenarios.equations import states
 from ..scenarios.scene import FEATURES, Scene
 from ..scenarios.trajectory import Provenance, Trajectory
-from .engine import Engine, EngineError, Reacting, Scheme, State
+from .engine import Engine, EngineError, Reacting, Scheme, State, settings_in
 from .stable_step import stable_step
 
 
@@ -72,7 +72,7 @@ def simulate(
         digests=tuple(digests),
         accelerations=accelerations,
         stable_step=limit,
-        settings=dict(engine.settings),
+        settings=settings_in(engine, scene),
     )
     return replace(first, provenance=provenance), dict([model])
 

@@ -6,7 +6,7 @@ from enum import Enum
 from math import log
 
 from .adapters import registry
-from .adapters.engine import Engine, Scheme
+from .adapters.engine import Engine, Scheme, settings_in
 from .adapters.runner import Request
 from .adapters.simulate import unsupported
 from .reference.errors import InputError
@@ -125,7 +125,7 @@ def _add(
             order=scheme.order,
             dt=dt,
             steps=scene.samples * scene.steps_per_sample(dt),
-            settings=dict(engine.settings),
+            settings=settings_in(engine, scene),
         )
         laid.records.append(record)
         laid.requests[record.key] = Request(scene.full_name, spec, scheme.name, dt, repeats)

@@ -81,7 +81,10 @@ def _praise(asked: Collection[str]) -> str:
 
 
 def _error(name: str, got: Any, asked: Any) -> float:
-    """Difference relative to what was asked for; infinite if there is no comparable answer."""
+    """Difference relative to what was asked for; infinite if there is no comparable answer.
+
+    Of a limit on velocities, which nothing asks for: how many times lower it is than one no scene comes near.
+    """
     try:
         have, want = np.asarray(got, dtype=np.float64), np.asarray(asked, dtype=np.float64)
     except (TypeError, ValueError):
@@ -89,7 +92,7 @@ def _error(name: str, got: Any, asked: Any) -> float:
     if have.shape != want.shape:
         return float("inf")
     if name == "velocity_limit":
-        return 0.0 if have >= UNLIMITED else float("inf")
+        return 0.0 if have >= UNLIMITED else float(UNLIMITED / have) if have > 0 else float("inf")
     difference = float(np.max(np.abs(have - want)))
     return difference / (float(np.max(np.abs(want))) or 1.0)
 

@@ -10,7 +10,7 @@ from poinsot.plan import Extent, plan
 LADDER, ALONE = "free_symmetric_top[oblate]", "free_symmetric_top[prolate]"
 
 
-def cells(extent, names=("free_symmetric_top",)):
+def cells(extent, names=(LADDER, ALONE)):
     laid = plan(select(list(names)), ["pinocchio"], ["semi-implicit Euler"], [], extent)
     return Counter(record.scene for record in laid.records), laid
 

@@ -88,6 +88,11 @@ def test_a_setting_that_is_not_as_asked_is_named(told, name, value, says):
     assert re.search(says, verdict.message)
 
 
+def test_a_lower_limit_is_further_off(told):
+    (low,), (high,) = (told({"velocity_limit": limit}) for limit in (50.0, 100.0))
+    assert (low.measured, high.measured) == (2e4, 1e4)
+
+
 def test_every_setting_that_is_wrong_has_a_verdict(told):
     wrong = {"dt": 2e-3, "angular_damping": 0.04, "body/top/mass": 2.0}
     assert {v.observable for v in told(wrong)} == set(wrong)

@@ -142,7 +142,8 @@ def moved(scene, truth, wrong, observable):
 @EVERY
 def test_ladders_are_whole_steps_that_halve(scene):
     # Or that go by thirds, which keep a blow in the middle of a step; only first-order schemes have contact.
-    assert ({1} if scene.contacts or scene.burning else {1, 4}) <= set(scene.ladders)
+    # Engines as they come are looked at at one step: what they do does not go away with it.
+    assert scene.defaults or ({1} if scene.contacts or scene.burning else {1, 4}) <= set(scene.ladders)
     for steps in scene.ladders.values():
         assert len(steps) >= 5
         ratio = 3.0 if scene.contacts and steps[0] / steps[1] > 2.5 else 2.0
