@@ -28,7 +28,8 @@ WAYS = {
 }
 SCENES = (
     "free_asymmetric_top[general]", "heavy_top[moderate]", "double_pendulum[small]", "co2_chain[mixture]",
-    "hanging_gyroscope", "gyrostat", "two_body[kepler e=0.1]", "coriolis_fall[thrown]", "collisions[e=1]",
+    "hanging_gyroscope[steady]", "gyrostat", "two_body[kepler e=0.1]", "coriolis_fall[thrown]",
+    "collisions[e=1]",
 )  # fmt: skip
 STEPS, SAMPLES = 100, 10
 #: Rounding of other numbers, over 100 steps.
