@@ -1,9 +1,12 @@
 """Where an engine has a body's centre of mass, by where it says that the body is."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..reference import equations_of_motion, quaternions
 from ..reference.checked import Array
+from ..reference.tree_schemes import apart
 from .evidence import NOTHING, Evidence
 from .fitting import size
 from .intervals import Intervals, unit_quaternions
@@ -37,7 +40,24 @@ def elsewhere(evidence: Evidence) -> str:
         return f"position told of body {name!r} is that of another point than its centre of mass"
     if evidence.inconsistent > NOTHING or evidence.elsewhere <= NOTHING:
         return ""
+    ahead = _ahead(evidence, cut)
+    if ahead:
+        whole = "sample" if ahead == cut.stride else "step"
+        return f"state is {f'{ahead} steps' if 1 < ahead < cut.stride else f'one {whole}'} early"
     return f"motion begins in another state than was asked for: {', '.join(_start(evidence))}"
+
+
+def _ahead(evidence: Evidence, cut: Intervals) -> int:
+    """By how many steps the first state told is ahead of the start; 0 if it is not one that follows it."""
+    asked = Intervals.of(evidence.scene, replace(evidence.cell.truth, provenance=evidence.told.provenance))
+    for steps in range(1, cut.stride + 1):
+        if asked is None:
+            break
+        q, v = asked.advanced(evidence.model, evidence.scheme, np.array([0]), steps=steps)
+        off = max(_largest(apart(evidence.model.links, q[0], cut.q[0])), _largest(v[0] - cut.v[0]))
+        if off <= NEAR * (1 + _largest(cut.v)):
+            return steps
+    return 0
 
 
 def displaced(name: str, by: Array) -> str:
@@ -56,8 +76,8 @@ def _from_joints(evidence: Evidence, cut: Intervals) -> tuple[Array, bool]:
     q = unit_quaternions(cut.scene, cut.q)
     position, _, velocity, _ = equations_of_motion.link_motion(links, q, cut.v)
     back = quaternions.conjugate(told.quaternion)
-    apart = quaternions.rotated(back, told.position - position)
-    mean, spread = apart.mean(axis=0), np.ptp(apart, axis=0).max()
+    away = quaternions.rotated(back, told.position - position)
+    mean, spread = away.mean(axis=0), np.ptp(away, axis=0).max()
     size_of_all = float(np.abs(told.position).max()) + 1e-9
     if spread > STEADY * size_of_all:
         return np.zeros_like(mean), False
@@ -81,8 +101,8 @@ def _of_centres(evidence: Evidence, by: Array) -> str:
 def _of_the_start(evidence: Evidence) -> str:
     """The same of a free body, which is told by its centre of mass: it begins elsewhere."""
     told, truth = evidence.told, evidence.cell.truth
-    apart, faster = (getattr(told, n)[0] - getattr(truth, n)[0] for n in ("position", "velocity"))
-    by = quaternions.rotated(quaternions.conjugate(told.quaternion[0]), apart)
+    away, faster = (getattr(told, n)[0] - getattr(truth, n)[0] for n in ("position", "velocity"))
+    by = quaternions.rotated(quaternions.conjugate(told.quaternion[0]), away)
     free = np.array([any(joint.kind == "free" for joint in body.joints) for body in evidence.scene.bodies])
     left = (faster - quaternions.rotated(told.quaternion[0], np.cross(told.omega[0], by)))[free]
     same = [_largest(getattr(told, n)[0] - getattr(truth, n)[0]) for n in ("quaternion", "omega")]

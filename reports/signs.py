@@ -199,7 +199,8 @@ def _single(evidence: Evidence) -> str:
     for name, words in CHANNELS.items():
         values = getattr(evidence.told, name)[1:].ravel()
         # What has few digits anyway, as 0 and whole numbers, tells nothing.
-        values = values[values.astype(np.float16) != values]
+        least = 1e-6 * np.abs(getattr(evidence.cell.truth, name)).max(initial=0.0)
+        values = values[(values.astype(np.float16) != values) & (np.abs(values) > least)]
         rounded = values.astype(np.float32)
         # Exact when it was rounded, it may have been turned into other axes and back since.
         exact = np.abs(rounded - values) < 1e-3 * np.spacing(np.abs(rounded))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
+from itertools import permutations, product
 
 import numpy as np
 
@@ -104,19 +105,30 @@ def alternatives(model: Model) -> Iterator[tuple[str, Callable[[Model], Model]]]
                     f"rotation of the inertia of body {name!r} is lost",
                     _with(place, inertia=np.diag(moments)),
                 )
+            for other in _turned_back(tensor):
+                back = f"rotation of the inertia of body {name!r} is the wrong way round"
+                yield back, _with(place, inertia=other)
             lost = np.diag(np.diag(tensor))
             yield f"products of inertia of body {name!r} are lost", _with(place, inertia=lost)
             opposite = 2 * lost - tensor
             yield f"products of inertia of body {name!r} have the wrong sign", _with(place, inertia=opposite)
         if np.any(com):
             moved = link.mass * (com @ com * np.eye(3) - np.outer(com, com))
-            words = f"inertia of body {name!r} is taken as if it were about"
-            yield f"{words} the frame, not the centre of mass", _with(place, inertia=tensor - moved)
-            yield (
-                f"{words} the centre of mass when it is about the frame",
-                _with(place, inertia=tensor + moved),
-            )
+            about = f"inertia of body {name!r} is taken about its frame, not its centre of mass"
+            yield about, _with(place, inertia=tensor + moved)
+            twice = f"inertia of body {name!r} is shifted to its centre of mass twice"
+            yield twice, _with(place, inertia=tensor - moved)
             yield f"centre of mass of body {name!r} is at its frame", _with(place, com=0 * com)
+
+
+def _turned_back(tensor: Array) -> Iterator[Array]:
+    """What a tensor becomes if its principal axes are turned the other way, whichever is called the first."""
+    moments, axes = np.linalg.eigh(tensor)
+    for order in permutations(range(3)):
+        for signs in product((1, -1), repeat=3):
+            R = axes[:, order] * signs
+            if np.linalg.det(R) > 0:
+                yield R.T @ np.diag(moments[list(order)]) @ R
 
 
 def _with(place: int, **parts: Array) -> Callable[[Model], Model]:

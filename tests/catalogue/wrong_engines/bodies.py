@@ -245,6 +245,7 @@ WRONG = (
         "inertia is turned the wrong way", "inertia axes",
         building(lambda scene: tensor(scene, _turned_back), MuJoCo),
         (alone("axis_theorems[rotated]", SE, EQUATIONS, "truth orientation", "invariant angular momentum"),),
+        located=r"^rotation of the inertia of body 'whole' is the wrong way round$",
     ),
     Wrong(
         "inertia is about the pivot, not the centre", "inertia axes", building(_about_origin, Pinocchio),

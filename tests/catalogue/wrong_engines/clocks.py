@@ -207,9 +207,10 @@ WRONG = (
             alone(TOP, RK, "order omega", says="fitted order 1.* declared 4"),
             alone(CHAIN, SE, "truth position, scheme's own"),
         ),
+        located=r"^state is one step early$",
     ),
     *STEP.sizes(
-        "time", {1e-4: ("steps are 1e-4 too long", ""), 1e-6: ("steps are 1e-6 too long", "")}
+        "time", {1e-4: ("steps are 1e-4 too long", r"^step is 1\.0001 times the stated one"), 1e-6: ("steps are 1e-6 too long", r"^step is 1\.000001 times the stated one")}
     ),
     Wrong(
         "the step asked for is never taken", "time", StepOfItsOwn,

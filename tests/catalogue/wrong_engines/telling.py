@@ -184,6 +184,7 @@ WRONG = (
     Wrong(
         "velocity is the frame's, not the centre's", "velocity", VelocityOfFrame,
         (alone(TOP, SE, "invariant energy"),),
+        located=r"^velocity is that of the frame, not of the centre of mass$",
     ),
     Wrong(
         "attitudes are mirrored", "quaternion", LeftHanded,
