@@ -210,7 +210,11 @@ WRONG = (
         located=r"^state is one step early$",
     ),
     *STEP.sizes(
-        "time", {1e-4: ("steps are 1e-4 too long", r"^step is 1\.0001 times the stated one"), 1e-6: ("steps are 1e-6 too long", r"^step is 1\.000001 times the stated one")}
+        "time",
+        {
+            1e-4: ("steps are 1e-4 too long", r"^step is 1\.0001 times the stated one"),
+            1e-6: ("steps are 1e-6 too long", r"^step is 1\.000001 times the stated one"),
+        },
     ),
     Wrong(
         "the step asked for is never taken", "time", StepOfItsOwn,

@@ -44,12 +44,22 @@ RESTITUTION = Family(
 )
 RADIUS = Family("radius of what touches", _larger, alone(ROLLS, SE, OWN))
 WRONG = (
-    *FRICTION.sizes("friction", {1e-2: ("friction is 1 % high", r"^friction of contact 'wheel on world' is 1 % high$"), -1e-2: ("friction is 1 % low", r"^friction of contact 'wheel on world' is 1 % low$")}),
+    *FRICTION.sizes(
+        "friction",
+        {
+            1e-2: ("friction is 1 % high", r"^friction of contact 'wheel on world' is 1 % high$"),
+            -1e-2: ("friction is 1 % low", r"^friction of contact 'wheel on world' is 1 % low$"),
+        },
+    ),
     Wrong(
         "friction is missing", "friction", touching(friction=1e-9), (alone(ROLLS, SE, OWN, "truth omega"),)
     ),
     *RESTITUTION.sizes(
-        "restitution", {1e-2: ("restitution is 1 % high", r"^restitution of contact 'first on second' is 1 % high$"), 1e-6: ("restitution is 1e-6 high", "")}
+        "restitution",
+        {
+            1e-2: ("restitution is 1 % high", r"^restitution of contact 'first on second' is 1 % high$"),
+            1e-6: ("restitution is 1e-6 high", ""),
+        },
     ),
     Wrong(
         "bodies part at full speed", "restitution", touching(restitution=2.0), (alone(BLOW, SE, OWN),)

@@ -115,7 +115,15 @@ WRONG = (
         "spring",
         {1e-6: ("springs are 1e-6 too stiff in the run alone", r"stiffness of all joints is 0\.0001 % high")},
     ),
-    *REST.sizes("spring", {1e-4: ("springs rest at a length 1e-4 m too large", r"^rest positions of the springs of all joints are off by 0\.0001$")}),
+    *REST.sizes(
+        "spring",
+        {
+            1e-4: (
+                "springs rest at a length 1e-4 m too large",
+                r"^rest positions of the springs of all joints are off by 0\.0001$",
+            )
+        },
+    ),
     *ATTRACTION.sizes(
         "force", {1e-6: ("attraction is 1e-6 too strong", r"G of the Attraction force is 0\.0001 % high")}
     ),
