@@ -86,13 +86,13 @@ class Cell:
     def softness(self) -> float:
         """Share of an observable's size by which contacts that give way in this engine may change it."""
         soft = self.scene.soft.get(self.provenance.engine)
-        return soft.share if soft else 0.0
+        return soft.at(self.provenance.dt) if soft else 0.0
 
     @property
     def granted(self) -> str:
         """Why more than round-off is granted, to end a message with; or nothing."""
         soft = self.scene.soft.get(self.provenance.engine)
-        return f"; {soft.share:.2g} of its size is granted as well: {soft.reason}" if soft else ""
+        return f"; {self.softness:.2g} of its size is granted as well: {soft.reason}" if soft else ""
 
     def verdict(
         self,

@@ -58,16 +58,28 @@ StableStep = Callable[["Scene", str], float | None]
 class Softness:
     """How far an engine's model of contact may take it from the motion asked for, and why.
 
-    ``share`` is of the size of each observable; ``reason`` says what gives way, and what was measured.
+    ``share`` is of the size of each observable, at a step of ``dt`` [s], and falls as the step does to the
+    power ``order``; ``reason`` says what gives way, and what was measured.
     """
 
     share: float
     reason: str
+    dt: float = 1.0
+    order: int = 0
 
     def __post_init__(self) -> None:
         positive("softness share", self.share)
+        positive("softness dt", self.dt)
+        if self.order < 0:
+            raise InputError(
+                f"softness order: got {self.order}, expected 0 or more: none grows as steps shrink"
+            )
         if not self.reason:
             raise InputError("softness: got no reason, expected what gives way and what was measured")
+
+    def at(self, dt: float) -> float:
+        """The share at a step of ``dt`` [s]."""
+        return self.share * (dt / self.dt) ** self.order
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,6 +28,8 @@ SOFT = Softness(
     2e-5,
     "MuJoCo's contact holds back 0.9999 of what pushes it in a step: 8.6e-6 rad is the most measured, at dt "
     "16 ms, and 3.1e-7 rad at 1 ms",
+    dt=1.6e-2,
+    order=1,
 )
 
 
@@ -150,6 +152,7 @@ def _ball() -> Scene:
         v0=(TURNING, *VELOCITY, 0.0, *body.tolist()),
         duration=1.28,
         samples=20,
+        dt=4e-3,
         truth=_truth,
         scheme_motion=_scheme_motion,
         soft={"mujoco": SOFT},

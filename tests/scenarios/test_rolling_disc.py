@@ -13,11 +13,11 @@ from poinsot.scenarios.trajectory import Provenance, of_one_body
 
 EVERY = pytest.mark.parametrize("scene", disc.SCENES, ids=lambda scene: scene.full_name)
 UNSTABLE = disc.SCENES[1]
-DT = 1e-3
+DT = 8e-4
 
 
 def judged(scene, motion, dt=DT):
-    run = Provenance(scene.full_name, "engine", "1", "Euler", 1, "semi-implicit Euler", dt, round(1.28 / dt))
+    run = Provenance(scene.full_name, "engine", "1", "Euler", 1, "semi-implicit Euler", dt, round(0.64 / dt))
     return {v.observable for v in truth.check(Cell(scene, motion, run)) if v.status is not Status.PASS}
 
 
@@ -57,7 +57,7 @@ def test_impulses_at_the_lowest_point_lead_to_the_truth(scene):
         scene.observables[2]
         .distance(scene, stepped(scene, dt), scene.truth(scene, scene.sample_times()))
         .max()
-        for dt in (2e-3, 1e-3)
+        for dt in (1.6e-3, 8e-4)
     )
     assert coarse / fine == pytest.approx(2.0, rel=0.05)
 
