@@ -18,6 +18,8 @@ SPAN = 0.01
 SPREAD = 0.2
 #: Rounds of the loop that tells how fast the machine itself is just then.
 ROUNDS = 20_000
+#: Empty calls to take the mean of.
+CALLS = 100
 #: Steps of the run that is not counted, which fills caches and tells how long the others will take.
 WARM_UP = 50
 
@@ -28,6 +30,7 @@ class Timing:
 
     ``beat`` [s] is what a fixed piece of Python's own work took beside it: where it differs from one
     cell to another, so did the machine. ``pinned`` tells whether the process could be kept on one core.
+    ``call`` [s] is what asking for no step at all takes: Python's share of a call, which a batch pays once.
     """
 
     steps: int
@@ -35,6 +38,7 @@ class Timing:
     seconds: tuple[float, ...]
     beat: float = 0.0
     pinned: bool = True
+    call: float | None = None
 
     @property
     def least(self) -> float:
@@ -55,7 +59,7 @@ class Timing:
         """The time of so many steps, taken on these."""
         return replace(self, steps=steps, seconds=tuple(s * (steps / self.steps) for s in self.seconds))
 
-    def as_row(self) -> dict[str, float | int]:
+    def as_row(self) -> dict[str, float | int | None]:
         """The part of a work-precision row that speaks of time."""
         return {
             "seconds_min": self.least,
@@ -64,6 +68,7 @@ class Timing:
             "timed_steps": self.timed,
             "us_per_step": self.least / self.steps * 1e6,
             "spread": self.spread,
+            "us_per_call": None if self.call is None else self.call * 1e6,
         }
 
 
@@ -83,12 +88,26 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
 
         def repeated() -> Timing:
             seconds = [_once(machine, scene, scheme, dt, stepped) * whole for _ in range(REPEATS)]
-            return Timing(steps, stepped, tuple(seconds), beat(), pinned)
+            return Timing(steps, stepped, tuple(seconds), beat(), pinned, empty_call(machine))
 
         first = repeated()
         return first if first.spread <= SPREAD else min(first, repeated(), key=lambda timing: timing.spread)
     finally:
         machine.close()
+
+
+def empty_call(machine: Engine) -> float | None:
+    """Time [s] of a call for no steps, the least of five means; ``None`` if the engine takes no such call."""
+    means = []
+    try:
+        for _ in range(5):
+            start = perf_counter()
+            for _ in range(CALLS):
+                machine.step(0)
+            means.append((perf_counter() - start) / CALLS)
+    except Exception:  # an engine of one's own may want at least one step, and say so in any way
+        return None
+    return min(means)
 
 
 def beat() -> float:

@@ -3,7 +3,8 @@
     python benchmarks/step_cost.py [SCENE ...]
 
 Both loops are timed in turn, many times over, in this process on one core; the least of each is printed,
-in microseconds a step, and their ratio, which must not exceed 1.00.
+in microseconds a step, and their ratio, which must not exceed 1.00. Beside them: what a step takes that is
+asked for alone, and what an empty call takes, which is Python's share of that.
 """
 
 import gc
@@ -42,7 +43,8 @@ def pinocchio_loop(engine, n):
 
 def pybullet_loop(engine, n):
     """One ``stepSimulation`` after another, with the forces of springs handed over before each."""
-    p, client, springs = importlib.import_module("pybullet"), engine._world.client, engine._world._springs
+    p, world = importlib.import_module("pybullet"), engine._world
+    client, springs = world.client, world.at.springs
     for _ in range(n):
         for uid, links, pulls in springs:
             states = p.getJointStates(uid, links, physicsClientId=client)
@@ -68,22 +70,32 @@ def least(*loops):
 
 
 def compared(scene, engine):
-    """Microseconds a step of the plain loop and of the harness."""
+    """Microseconds a step of the plain loop and of the harness, of a step alone, and of an empty call."""
     plain, ours = engine(), engine()
     for machine in (plain, ours):
         machine.build(scene, engine.schemes[0], DT)
-    seconds = least(lambda n: LOOPS[engine.name](plain, n), ours.step)
-    return [1e6 * second / STEPS for second in seconds]
+    alone = engine()
+    alone.build(scene, engine.schemes[0], DT)
+
+    def one_by_one(n):
+        step = alone.step
+        for _ in range(n):
+            step(1)
+
+    seconds = least(lambda n: LOOPS[engine.name](plain, n), ours.step, one_by_one)
+    return [*(1e6 * second / STEPS for second in seconds), 1e6 * timing.empty_call(ours)]
 
 
 def main(names):
     """Print a table, a row for each scene and engine."""
     timing.pin()
-    print(f"{'scene':28} {'engine':10} {'plain':>7} {'harness':>8} {'ratio':>6}")
+    head = ("plain", "harness", "ratio", "alone", "call")
+    print(f"{'scene':28} {'engine':10} {' '.join(f'{word:>8}' for word in head)}")
     for scene in select(names):
         for name in LOOPS:
-            plain, ours = compared(scene, registry.load(name))
-            print(f"{scene.full_name:28} {name:10} {plain:7.2f} {ours:8.2f} {ours / plain:6.2f}")
+            plain, ours, alone, call = compared(scene, registry.load(name))
+            found = (plain, ours, ours / plain, alone, call)
+            print(f"{scene.full_name:28} {name:10} {' '.join(f'{value:8.2f}' for value in found)}")
 
 
 if __name__ == "__main__":

@@ -127,7 +127,8 @@ def _time(row: Record) -> str:
     if row["seconds_median"] is None:
         return "not timed"
     spread = f"least {number(row['seconds_min'])} s" if row["seconds_min"] is not None else "least not kept"
-    return f"median {number(row['seconds_median'])} s, {spread}, {count(row['repeats'], 'repeat')}"
+    call = f"; {row['us_per_call']:.2f} µs of Python in a call" if row.get("us_per_call") is not None else ""
+    return f"median {number(row['seconds_median'])} s, {spread}, {count(row['repeats'], 'repeat')}{call}"
 
 
 def _not_drawn(lost: list[Record], x: str) -> str:

@@ -31,7 +31,7 @@ GRAVITY = (
 )
 
 #: What a row of ``work_precision`` says of time.
-TIMES = ("seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread")
+TIMES = ("seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread", "us_per_call")
 
 Key = tuple[str, str, str, float]
 

@@ -10,10 +10,13 @@ from typing import ClassVar
 import pytest
 from poinsot.adapters import timing
 from poinsot.adapters.engine import Scheme
+from poinsot.adapters.registry import load
 from poinsot.scenarios.registry import scenes
 
 SCHEME = Scheme("none", 1, "none", {})
 EACH = 2e-6
+#: What it takes to be asked, of an engine that is slow at that.
+ASKING = 5e-5
 
 
 class Sleeper:
@@ -26,6 +29,8 @@ class Sleeper:
         pass
 
     def step(self, n):
+        if n == 0:
+            return
         self.asked.append(n)
         self.collecting.append(gc.isenabled())
         end = time.perf_counter() + n * EACH
@@ -92,6 +97,50 @@ def test_the_time_of_other_steps_is_scaled():
     found = timing.Timing(10, 5, (2.0, 4.0), 1e-3).of(30)
     assert found == timing.Timing(30, 5, (6.0, 12.0), 1e-3)
     assert found.as_row()["us_per_step"] == pytest.approx(2e5)
+
+
+class SlowToCall(Sleeper):
+    """Takes a while to be asked, whatever for."""
+
+    def step(self, n):
+        end = time.perf_counter() + ASKING
+        while time.perf_counter() < end:
+            pass
+        super().step(n)
+
+
+def test_what_a_call_takes_by_itself_is_told_apart():
+    found = timing.timed(scenes()["free_symmetric_top[oblate]"], SlowToCall, SCHEME, 1e-2)
+    assert found.call >= ASKING
+    assert found.as_row()["us_per_call"] == found.call * 1e6
+
+
+class WantsSteps(Sleeper):
+    def step(self, n):
+        if n < 1:
+            raise ValueError("how many?")
+        super().step(n)
+
+
+def test_an_engine_that_takes_no_empty_call_is_timed_all_the_same():
+    found = timing.timed(scenes()["free_symmetric_top[oblate]"], WantsSteps, SCHEME, 1e-2)
+    assert found.call is None
+    assert found.as_row()["us_per_call"] is None
+    assert found.least > 0
+
+
+@pytest.mark.parametrize("name", ["mujoco", "pybullet", "pinocchio"])
+def test_an_empty_call_moves_nothing(name):
+    pytest.importorskip(name)
+    scene, engine = scenes()["double_pendulum[small]"], load(name)
+    machine = engine()
+    machine.build(scene, engine.schemes[0], 1e-3)
+    machine.step(10)
+    before = [part.tolist() for part in machine.state()[:6]]
+    # Python's share of a call is microseconds; on a machine that is busy, tens of them.
+    assert 0 < timing.empty_call(machine) < 1e-3
+    assert [part.tolist() for part in machine.state()[:6]] == before
+    machine.close()
 
 
 def test_the_beat_is_that_of_the_machine():

@@ -57,8 +57,8 @@ def test_memory_and_size_of_the_log_survive_a_second_report(found):
     weighed = {**found, "cells": [{**cell, "log_bytes": 5, "memory_bytes": 7} for cell in found["cells"]]}
     again = results.records_of(weighed)
     assert [(record.log_bytes, record.memory) for record in again] == [(5, 7)] * 3
-    assert results._cell(again[0], [])["log_bytes"] == 5
-    assert results._cell(again[0], [])["memory_bytes"] == 7
+    told = results.results(again, [], [], scenes(), {}, [])["cells"]
+    assert [(cell["log_bytes"], cell["memory_bytes"]) for cell in told] == [(5, 7)] * 3
 
 
 def test_results_of_before_they_were_kept_are_read(found):

@@ -1,0 +1,171 @@
+"""Run a free top and a pendulum for ten million steps in every scheme, and tell how their errors grow.
+
+    python benchmarks/long_runs.py FOLDER [ENGINE ...]   run what FOLDER does not hold yet, and keep it there
+    python benchmarks/long_runs.py FOLDER --publish      write reports/published/LONG_RUNS.md from it
+
+Each run is a process of its own, one after the other, stepped in the engine's own loop and looked at 1600
+times. Energy and angular momentum are computed from its states, as everywhere in Poinsot; reports/drift.py
+tells their law. Memory is what the process holds after 1e5 steps and at the end.
+"""
+
+import json
+import multiprocessing
+import sys
+from dataclasses import replace
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+from poinsot.adapters import registry
+from poinsot.adapters.engine import EngineError
+from poinsot.adapters.simulate import unsupported
+from poinsot.reports.drift import BLOCKS, drift
+from poinsot.scenarios import mechanics
+from poinsot.scenarios.registry import scenes
+from poinsot.scenarios.trajectory import Trajectory
+
+PAGE = Path(__file__).resolve().parents[1] / "reports" / "published" / "LONG_RUNS.md"
+SYSTEMS = {"free top": "free_symmetric_top[oblate]", "pendulum": "large_pendulum[swing]"}
+ENGINES = ("mujoco", "pybullet", "pinocchio")
+DT, STEPS, SAMPLES, EARLY = 1e-3, 10_000_000, 1600, 100_000
+
+
+def held():
+    """Memory [bytes] that this process holds now."""
+    for line in Path("/proc/self/status").read_text(encoding="utf-8").splitlines():
+        if line.startswith("VmRSS:"):
+            return int(line.split()[1]) * 1024
+    return 0
+
+
+def quantities(scene, state):
+    """Energy, and angular momentum about the centre of mass (3,), of a state."""
+    motion = Trajectory(np.zeros(1), *(np.asarray(part, float)[None] for part in state))
+    still = replace(motion, position=0 * motion.position, velocity=0 * motion.velocity)
+    return mechanics.energy(scene, motion)[0], mechanics.angular_momentum_world(scene, still)[0]
+
+
+def run(system, engine_name, scheme_name, path):
+    """One run; what it came to is written to ``path``."""
+    scene, engine = scenes()[SYSTEMS[system]], registry.load(engine_name)
+    machine, scheme = engine(), registry.scheme_of(engine, scheme_name)
+    machine.build(scene, scheme, DT)
+    found, broke, early, stride = np.full((SAMPLES + 1, 4), np.nan), "", 0, STEPS // SAMPLES
+    energy, spin = quantities(scene, machine.state())
+    begun = process_time()
+    for sample in range(SAMPLES + 1):
+        try:
+            if sample:
+                machine.step(stride)
+            now = quantities(scene, machine.state())
+        except EngineError as error:
+            broke = " ".join(str(error).split())
+            break
+        found[sample] = now[0] - energy, *(now[1] - spin)
+        if sample * stride <= EARLY:
+            early = held()
+    seconds, late = process_time() - begun, held()
+    told = {
+        "system": system, "engine": engine_name, "version": engine.version(), "scheme": scheme_name,
+        "stride": stride, "broke": broke, "seconds": seconds, "memory": [early, late],
+        "energy_scale": float(abs(kinetic_scale(scene))), "momentum_scale": float(np.linalg.norm(spin)),
+        "found": found[np.isfinite(found).all(axis=1)].tolist(),
+    }  # fmt: skip
+    path.write_text(json.dumps(told), encoding="utf-8")
+
+
+def kinetic_scale(scene):
+    """The kinetic energy [J] of the start: what errors of energy are held against."""
+    start = scene.truth(scene, scene.sample_times()[:1])
+    return mechanics.kinetic_energy(scene, start)[0]
+
+
+def wanted(names):
+    """Every system, engine and scheme that goes together."""
+    for system, full_name in SYSTEMS.items():
+        for name in names:
+            engine = registry.load(name)
+            for scheme in engine.schemes:
+                if not unsupported(scenes()[full_name], engine, scheme):
+                    yield system, name, scheme.name
+
+
+def law(t, errors):
+    """Law, rate and largest error in words; of a run that broke, of what came before."""
+    if len(t) < 8 * BLOCKS:
+        return f"{len(t)} samples tell no law", float(np.abs(errors).max())
+    told = drift(t, errors)
+    rate = {"linear": f", {told.rate:.2g} /s", "√t": f", {told.rate:.2g} /√s"}.get(told.law, "")
+    if told.law == "exponential":  # how fast is no constant of a scheme that blows up ever faster
+        rate = " or faster"
+    return told.law + rate, told.largest
+
+
+def row(told):
+    """One line of the table."""
+    found = np.array(told["found"])
+    t = np.arange(len(found)) * told["stride"] * DT
+    energy, largest = law(t, found[:, 0] / told["energy_scale"])
+    momentum = "–", None
+    if told["system"] == "free top":
+        momentum = law(t, np.linalg.norm(found[:, 1:], axis=1) / told["momentum_scale"])
+    early, late = told["memory"]
+    steps = (len(found) - 1) * told["stride"]
+    turned = f"{momentum[1]:.1e}" if momentum[1] is not None else "–"
+    fate = f"stops after {steps:.3g}: {told['broke']}" if told["broke"] else f"{steps:.0e}"
+    scheme = f"{told['engine']} {told['version']} {told['scheme']}"
+    return (
+        f"| {told['system']} | {scheme} | {fate} | {energy} | "
+        f"{largest:.1e} | {momentum[0]} | {turned} | {late / early - 1:+.1%} | "
+        f"{told['seconds'] / max(1, steps) * 1e6:.2f} |"
+    )
+
+
+def page(folder):
+    """The table, in Markdown, of what the folder holds."""
+    runs = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in folder.glob("*.json")}
+    lines = [
+        "# Ten million steps",
+        "",
+        "`python benchmarks/long_runs.py FOLDER`, then the same with `--publish`, writes this page: a free",
+        "top (`free_symmetric_top[oblate]`) and a pendulum (`large_pendulum[swing]`), by steps of 1 ms over",
+        "10⁴ s. Errors of energy are held against the kinetic energy of the start, those of the angular",
+        "momentum about the centre of mass against itself. `reports/drift.py` tells the laws and how they are",
+        "decided. Memory is what the process holds at the end, against what it held after 10⁵ steps.",
+        "",
+        "| system | scheme | steps | energy | largest | momentum | largest | memory | µs a step |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    names = [file_name(*case) for case in wanted(ENGINES)]
+    lines += [row(runs[name]) for name in names if name in runs]
+    missing = [name for name in names if name not in runs]
+    if missing:
+        lines += ["", f"Not run: {', '.join(missing)}."]
+    return "\n".join(lines) + "\n"
+
+
+def file_name(system, engine, scheme):
+    """Name of a run's file, without its ending."""
+    return f"{system}-{engine}-{scheme}".replace(" ", "_")
+
+
+def main(folder, *names):
+    """Run what is missing, or publish what is there."""
+    folder = Path(folder)
+    if "--publish" in names:
+        PAGE.parent.mkdir(exist_ok=True)
+        PAGE.write_text(page(folder), encoding="utf-8")
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    for case in wanted(names or ENGINES):
+        path = folder / f"{file_name(*case)}.json"
+        if not path.exists():
+            child = multiprocessing.get_context("spawn").Process(target=run, args=(*case, path))
+            child.start()
+            child.join()
+            print(path.stem, "done" if path.exists() else f"died with exit code {child.exitcode}", flush=True)
+    sys.stdout.write(page(folder))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
