@@ -1,23 +1,26 @@
 """Print what leanness buys: the cost of a step as Poinsot builds a scene, and as the engine would have it.
 
-    python benchmarks/lean.py [SCENE ...]
+    python benchmarks/lean.py [SCENE ...]     print the table
+    python benchmarks/lean.py --publish       write reports/published/LEAN.md
 
 The same motion is stepped twice in one run, by turns: in the model that holds only what the scene names, and
 in one with what users mostly give an engine: MuJoCo with all it does by default and a shape on every body
 above a floor; PyBullet with a shape and a picture on every link above a floor, stepped one by one;
 Pinocchio in the loop one writes down, with a shape on every body above a floor, looked at for contact.
-Nothing touches, so that the states must agree to 1e-9. The least of many times is printed.
+Nothing touches, so that the states must agree to 1e-9. The least of many times counts.
 """
 
 import gc
 import importlib
 import sys
+from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 from poinsot.adapters import registry, timing
 from poinsot.scenarios.registry import select
 
+PAGE = Path(__file__).resolve().parents[1] / "reports" / "published" / "LEAN.md"
 DT, STEPS, ROUNDS = 1e-4, 256, 100
 SCENES = ("free_symmetric_top[oblate]", "heavy_top[moderate]", "double_pendulum[small]")
 #: Small shapes, and a floor far below all of them [m]: nothing ever touches.
@@ -43,14 +46,15 @@ def mujoco_laden(engine, scene):
 def pybullet_laden(engine, scene):
     """PyBullet with shapes and a floor, one call a step."""
     module = importlib.import_module("poinsot.adapters.pybullet_")
-    p, plain, client = module.p, module.urdf, engine._world.client
+    loading = importlib.import_module("poinsot.adapters.pybullet_loading")
+    p, plain, client = module.p, loading.urdf, engine._world.client
     form = f'<geometry><sphere radius="{SIZE}"/></geometry>'
     shapes = f"  <visual>{form}</visual><collision>{form}</collision>\n</link>"
-    module.urdf = lambda *of: plain(*of).replace("</link>", shapes)
+    loading.urdf = lambda *of: plain(*of).replace("</link>", shapes)
     try:
         engine._world = module._World(client, scene, False, DT)
     finally:
-        module.urdf = plain
+        loading.urdf = plain
     engine._world.place(np.array(scene.q0), np.array(scene.v0))
     floor = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client)
     p.createMultiBody(0, floor, basePosition=[0, 0, FLOOR], physicsClientId=client)
@@ -113,20 +117,38 @@ def compared(scene, engine):
     return *(1e6 * min(found) / STEPS for found in times), apart
 
 
-def main(names):
-    """Print a table, a row for each scene and engine; 1 if a motion is not the same."""
+def page(rows):
+    """The table, in Markdown."""
+    lines = [
+        "# What leanness buys",
+        "",
+        "`python benchmarks/lean.py --publish` writes this page: microseconds a step of the model that holds",
+        "only what the scene names, and of one with shapes on every body above a floor and the engine's",
+        "own defaults, in one run by turns. Nothing touches; the last column is how far the two end apart.",
+        "",
+        "| scene | engine | lean | laden | ratio | states apart |",
+        "|---|---|---|---|---|---|",
+    ]
+    for scene, name, lean, laden, apart in rows:
+        lines.append(f"| `{scene}` | {name} | {lean:.2f} | {laden:.2f} | {laden / lean:.2f} | {apart:.0e} |")
+    return "\n".join(lines) + "\n"
+
+
+def main(arguments):
+    """Measure each scene in each engine; 1 if a motion is not the same."""
     timing.pin()
-    print(f"{'scene':28} {'engine':10} {'lean':>7} {'laden':>7} {'ratio':>6}   states apart")
-    worst = 0.0
+    names = [name for name in arguments if not name.startswith("--")] or list(SCENES)
+    rows = []
     for scene in select(names):
         for name in LADEN:
-            lean, laden, apart = compared(scene, registry.load(name))
-            worst = max(worst, apart)
-            print(
-                f"{scene.full_name:28} {name:10} {lean:7.2f} {laden:7.2f} {laden / lean:6.2f}   {apart:.1e}"
-            )
-    return 0 if worst <= SAME else 1
+            engine = registry.load(name)
+            rows.append((scene.full_name, f"{name} {engine.version()}", *compared(scene, engine)))
+    if "--publish" in arguments:
+        PAGE.write_text(page(rows), encoding="utf-8")
+    else:
+        sys.stdout.write(page(rows))
+    return 0 if max(row[-1] for row in rows) <= SAME else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:] or list(SCENES)))
+    sys.exit(main(sys.argv[1:]))
