@@ -169,8 +169,10 @@ def test_list_imports_no_engine_and_nothing_heavy():
 def test_an_interrupt_ends_with_130_and_leaves_no_process(tmp_path):
     command = [sys.executable, "-m", "poinsot", "run", "heavy_top[fast]", "--out", str(tmp_path / "out")]
     started = subprocess.Popen(
-        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
+        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        # Whoever runs tests side by side keeps interrupts from them, and so from what they start.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
     while not list(tmp_path.glob("out/logs/*.mcap")) and started.poll() is None:
         time.sleep(0.1)
     os.killpg(started.pid, signal.SIGINT)

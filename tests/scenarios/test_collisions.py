@@ -75,7 +75,7 @@ def test_numbers_of_the_blow_are_those_of_the_closed_forms(scene):
 
 @EVERY
 def test_every_blow_falls_in_the_middle_of_a_step(scene):
-    for dt in scene.ladders[1]:
+    for dt in scene.ladder(1):
         assert (collisions.MEETING / dt) % 1 == pytest.approx(0.5, abs=1e-9)
 
 
