@@ -4,6 +4,7 @@ import importlib
 import importlib.metadata
 import importlib.util
 import pkgutil
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -22,8 +23,7 @@ def names() -> list[str]:
     own = [
         module.name.removesuffix("_") for module in pkgutil.iter_modules(folder) if module.name.endswith("_")
     ]
-    extra = [point.name for point in importlib.metadata.entry_points(group=ENTRY_POINTS)]
-    return list(dict.fromkeys([*sorted(own), *sorted(extra)]))
+    return list(dict.fromkeys([*sorted(own), *sorted(_points())]))
 
 
 def engines() -> dict[str, type[Engine] | str]:
@@ -45,9 +45,8 @@ def load(spec: str) -> type[Engine]:
     """
     if ":" in spec:
         return _checked(spec, *_from_path(spec))
-    points = {point.name: point for point in importlib.metadata.entry_points(group=ENTRY_POINTS)}
-    if spec in points:
-        return _checked(spec, points[spec].load(), spec)
+    if spec in _points():
+        return _checked(spec, _points()[spec].load(), spec)
     if spec not in names():
         raise InputError(
             f"engine: got {spec!r}; {nearest(spec, names())}, or your own as path/to/file.py:Class"
@@ -70,6 +69,12 @@ def scheme_of(engine: type[Engine], name: str | None) -> Scheme:
     if name not in schemes:
         raise InputError(f"scheme of {engine.name}: got {name!r}; {nearest(name, schemes)}")
     return schemes[name]
+
+
+@cache
+def _points() -> dict[str, importlib.metadata.EntryPoint]:
+    """Entry points by name; to find them, all that is installed is looked through, so it is done once."""
+    return {point.name: point for point in importlib.metadata.entry_points(group=ENTRY_POINTS)}
 
 
 def _only_engine(module: ModuleType) -> object:

@@ -97,10 +97,12 @@ def test_ones_own_by_module(own, monkeypatch):
     sys.modules.pop("mine")
 
 
-def test_ones_own_by_entry_point(own, monkeypatch):
+def test_ones_own_by_entry_point(own, monkeypatch, request):
     monkeypatch.syspath_prepend(own.parent)
     point = EntryPoint("registered", "mine:Mine", registry.ENTRY_POINTS)
     monkeypatch.setattr(importlib.metadata, "entry_points", lambda group: [point])
+    registry._points.cache_clear()
+    request.addfinalizer(registry._points.cache_clear)
     assert "registered" in registry.names()
     assert registry.load("registered").name == "mine"
     assert registry.engines()["registered"].name == "mine"
