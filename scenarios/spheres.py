@@ -25,7 +25,8 @@ def spheres(masses: dict[str, float], places: npt.ArrayLike, velocities: npt.Arr
 
     Each has a radius of 1 m and an attitude of its own: a force along body axes would show.
     """
-    turns = np.random.default_rng(len(masses)).normal(size=(len(masses), 4))
+    # Not at random, for which a listing of scenes would have to load what makes random numbers.
+    turns = np.sin(np.arange(1.0, 4 * len(masses) + 1)).reshape(-1, 4)
     turns /= np.linalg.norm(turns, axis=1, keepdims=True)
     bodies = (
         Body(name, m, diagonal(*(0.4 * m,) * 3), (Joint(f"{name} flies", "free"),))
