@@ -123,4 +123,13 @@ def _scenes(digest: Digest, scenes: tuple[str, ...]) -> str:
     missing = [scene for scene in digest.scenes if scene not in scenes]
     if len(scenes) > 1 and len(missing) <= min(3, len(scenes) - 1):
         return f"every scene but {', '.join(missing)}" if missing else "every scene"
-    return ", ".join(scenes)
+    variants: dict[str, list[str]] = {}
+    for scene in digest.scenes:
+        variants.setdefault(scene.partition("[")[0], []).append(scene)
+    whole = {name for name, every in variants.items() if len(every) > 1 and set(every) <= set(scenes)}
+    bare = [scene.partition("[")[0] for scene in scenes]
+    named = [
+        f"{name} (every variant)" if name in whole else scene
+        for name, scene in zip(bare, scenes, strict=True)
+    ]
+    return ", ".join(dict.fromkeys(named))

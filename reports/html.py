@@ -119,7 +119,8 @@ def _weights(digest: Digest) -> dict[str, str]:
         said = [f"at most {max(memory) / 1e6:.0f} MB held by the process of a cell"] if memory else []
         if sizes:
             least, most, total = min(sizes) / 1e3, max(sizes) / 1e3, sum(sizes) / 1e6
-            said += [f"logs of {least:.0f} to {most:.0f} kB, {total:.2f} MB in all"]
+            size = f"{least:.0f} to {most:.0f}" if round(least) < round(most) else f"{most:.0f}"
+            said += [f"logs of {size} kB, {total:.2f} MB in all"]
         if said:
             found[scene] = "; ".join(said)
     return found

@@ -44,13 +44,13 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
 
     ``rows`` are those of ``work_precision`` for that scene. The result holds ``views``: label of
     the observable, label of the x axis, plotly ``data``, the axes' titles, the Pareto ``front``, and a note
-    on whatever has no place on these axes. ``None`` where there are no rows.
+    on whatever has no place on these axes. ``None`` where there are no rows, or but one step and no time.
     """
     table = list(rows)
-    if not table:
+    timed = any(row["seconds_median"] is not None for row in table)
+    if not timed and len({row["dt"] for row in table}) < 2:
         return None
     styles = {(column.engine, column.version, column.scheme): column for column in columns}
-    timed = any(row["seconds_median"] is not None for row in table)
     abscissae = (["seconds_median"] if timed else []) + ["dt"]
     observables = dict.fromkeys((row["observable"], row["unit"]) for row in table)
     views = [
