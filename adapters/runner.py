@@ -4,10 +4,10 @@ import multiprocessing
 import os
 import re
 import signal
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
 from concurrent.futures import TimeoutError as TimeLimitError
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
@@ -15,7 +15,7 @@ from pebble import ProcessExpired, ProcessPool
 
 from ..reference.errors import PoinsotError
 from ..scenarios.registry import scenes
-from . import log, memory, registry
+from . import log, memory, registry, spent
 from .simulate import simulate
 from .timing import Timing, timed
 
@@ -48,12 +48,16 @@ class Failure(str):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a request: the name of its log, or why there is none; the memory [bytes] it took."""
+    """What became of a request: the name of its log, or why there is none; the memory [bytes] it took.
+
+    ``spent`` [s] is what the processor took for each part of it.
+    """
 
     request: Request
     log: str | None = None
     error: str = ""
     memory: int | None = None
+    spent: Mapping[str, float] = field(default_factory=dict)
 
 
 def run(
@@ -72,7 +76,7 @@ def run(
     for request, result in isolated(_logged, requests, (folder,), workers, time_limit):
         failed = isinstance(result, str)
         outcomes[request] = (
-            Outcome(request, error=result) if failed else Outcome(request, result[0], "", result[1])
+            Outcome(request, error=result) if failed else Outcome(request, result[0], "", *result[1:])
         )
         progress(outcomes[request])
     return [outcomes[request] for request in requests]
@@ -135,14 +139,17 @@ def _result(future: Future[Any], time_limit: float) -> Any:
         return Failure(f"{type(error).__name__}: {error}", "error")
 
 
-def _logged(request: Request, folder: Path) -> tuple[str, int | None]:
+def _logged(request: Request, folder: Path) -> tuple[str, int | None, dict[str, float]]:
     memory.forget()
-    engine = registry.load(request.engine)
+    spent.forget()
+    with spent.on("loading"):
+        engine = registry.load(request.engine)
     scene, scheme = scenes()[request.scene], registry.scheme_of(engine, request.scheme)
     trajectory, model = simulate(scene, engine, scheme, request.dt, request.repeats)
     path = folder / file_name(request)
-    log.write(path, scene, trajectory, model)
-    return path.name, memory.peak()
+    with spent.on("logging"):
+        log.write(path, scene, trajectory, model)
+    return path.name, memory.peak(), spent.so_far()
 
 
 def _timed(request: Request) -> Timing:

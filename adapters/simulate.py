@@ -12,6 +12,7 @@ from ..reference.errors import InputError
 from ..scenarios.equations import states
 from ..scenarios.scene import FEATURES, Scene
 from ..scenarios.trajectory import Provenance, Trajectory
+from . import spent
 from .engine import Engine, EngineError, Reacting, Scheme, State, settings_in
 from .stable_step import stable_step
 
@@ -46,16 +47,22 @@ def simulate(
     dt = scene.whole_step(dt)
     machine = engine()
     try:
-        machine.build(scene, scheme, dt)
-        setup, model = machine.readback(), machine.model_text()
-        accelerations = _accelerations(machine, scene, scheme) if repeats > 1 else ()
+        with spent.on("building"):
+            machine.build(scene, scheme, dt)
+            model = machine.model_text()
+        with spent.on("setup"):
+            setup = machine.readback()
+        with spent.on("accelerations"):
+            accelerations = _accelerations(machine, scene, scheme) if repeats > 1 else ()
         first = _record(machine, scene, dt)
         digests = [digest(first)]
-        for _ in range(repeats - 1):
-            machine.build(scene, scheme, dt)
-            digests.append(digest(_record(machine, scene, dt)))
-        sought = repeats > 1 and scene.stable_step is not None
-        limit = tuple(stable_step(machine, scene, scheme)) if sought else ()
+        with spent.on("repeat"):
+            for _ in range(repeats - 1):
+                machine.build(scene, scheme, dt)
+                digests.append(digest(_record(machine, scene, dt)))
+        with spent.on("stable step"):
+            sought = repeats > 1 and scene.stable_step is not None
+            limit = tuple(stable_step(machine, scene, scheme)) if sought else ()
     finally:
         machine.close()
     provenance = Provenance(
@@ -101,7 +108,8 @@ def _record(machine: Engine, scene: Scene, dt: float) -> Trajectory:
     reaction = np.empty((scene.samples + 1, len(scene.reactions), 6))
     for sample in range(scene.samples + 1):
         if sample:
-            machine.step(stride)
+            with spent.on("stepping"):
+                machine.step(stride)
         # Assigned, so copied: an engine may hand out views of arrays that its next step overwrites.
         for column, part in zip(columns, machine.state(), strict=True):
             column[sample] = part

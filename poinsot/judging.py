@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from .adapters import log
+from .adapters import log, spent
 from .reference.errors import InputError
 from .reports import order, results, truth
 from .reports.cell import Cell
@@ -33,6 +33,8 @@ class Judged:
     notes: list[str] = field(default_factory=list)
     partly: set[Ladder] = field(default_factory=set)
     pictures: dict[str, list[Figure]] = field(default_factory=dict)
+    #: Seconds of the processor by scene and part.
+    spent: dict[str, dict[str, float]] = field(default_factory=dict)
 
     def add(self, other: "Judged") -> None:
         """Append what another scene came to."""
@@ -42,6 +44,7 @@ class Judged:
         self.notes += other.notes
         self.partly |= other.partly
         self.pictures |= other.pictures
+        self.spent |= other.spent
 
 
 def judged(
@@ -79,18 +82,25 @@ def _judged(
     seconds: Mapping[Key, Mapping[str, Any]],
     records: Sequence[CellRecord],
 ) -> Judged:
+    spent.forget()
     known = all_scenes()
-    motions = [_read(folder, record) for record in records]
-    cells = [Cell.of(motion, known) for motion in motions]
-    verdicts = judge(motions)
-    return Judged(
-        verdicts=verdicts,
-        localised=_localised(cells, verdicts),
-        rows=results.precision_rows(cells, seconds),
-        notes=[_without(cell, missing) for cell in cells if (missing := truth.without_constant(cell))],
-        partly=order.partly(cells),
-        pictures={records[0].scene: motion_figures(_shown(cells), every)},
-    )
+    with spent.on("reading"):
+        cells = [Cell.of(_read(folder, record), known) for record in records]
+    with spent.on("errors"):  # first, so that what the truth costs is not put on the checks
+        rows = results.precision_rows(cells, seconds)
+    with spent.on("checks"):
+        verdicts = judge(cell.trajectory for cell in cells)
+        found = Judged(
+            verdicts=verdicts,
+            localised=_localised(cells, verdicts),
+            rows=rows,
+            notes=[_without(cell, missing) for cell in cells if (missing := truth.without_constant(cell))],
+            partly=order.partly(cells),
+        )
+    with spent.on("pictures"):
+        found.pictures = {records[0].scene: motion_figures(_shown(cells), every)}
+    found.spent = {records[0].scene: spent.so_far()}
+    return found
 
 
 def _localised(cells: Sequence[Cell], verdicts: Sequence[Verdict]) -> list[Localisation]:

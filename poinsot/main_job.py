@@ -14,6 +14,7 @@ from .adapters import log, runner
 from .adapters.environment import environment
 from .adapters.runner import Request
 from .adapters.timing import SPREAD, Timing
+from .cost import Cost
 from .judging import judged
 from .plan import Extent, Plan
 from .reference.errors import InputError
@@ -67,9 +68,13 @@ def run(
     progress: Progress,
 ) -> dict[str, Any]:
     """Run every cell of the plan, then judge and report it; the results as written to ``folder``."""
-    started, clock = datetime.now(UTC), perf_counter()
-    records = _simulated(laid, folder, workers, time_limit, progress)
-    timings = _timed(laid, records, time_limit, progress) if with_timing else {}
+    started, clock, cost = datetime.now(UTC), perf_counter(), Cost(workers)
+    with cost.phase("simulating"):
+        records = _simulated(laid, folder, workers, time_limit, progress, cost)
+    timings: dict[Key, Timing | str] = {}
+    if with_timing:
+        with cost.phase("timing"):
+            timings = _timed(laid, records, time_limit, progress)
     seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
     noted = [*laid.notes, *_quality([t for t in timings.values() if isinstance(t, Timing)])]
     untimed = [
@@ -80,7 +85,8 @@ def run(
     beyond: list[dict[str, Any]] = []
     if laid.extent is Extent.FULL:
         sound = {key: timing for key, timing in timings.items() if isinstance(timing, Timing)}
-        beyond, missing = precision.beyond(laid, sound, workers, time_limit, progress)
+        with cost.phase("steps beyond the ladders"):
+            beyond, missing = precision.beyond(laid, sound, workers, time_limit, progress)
         noted += missing
     facts = environment() | {
         "command": command,
@@ -89,7 +95,9 @@ def run(
         "workers": workers,
         "seconds": round(perf_counter() - clock, 1),
     }
-    return report(folder, records, seconds, facts, [*noted, *untimed], workers, beyond)
+    found = report(folder, records, seconds, facts, [*noted, *untimed], workers, beyond, cost)
+    cost.write(folder)
+    return found
 
 
 def report(
@@ -100,15 +108,20 @@ def report(
     notes: Sequence[str],
     workers: int,
     beyond: Sequence[Mapping[str, Any]] = (),
+    cost: Cost | None = None,
 ) -> dict[str, Any]:
     """Judge the logs of ``folder`` and write every page; needs no engine.
 
-    ``beyond`` are rows of error against run time that have no log, and are not judged.
+    ``beyond`` are rows of error against run time that have no log, and are not judged. To ``cost`` is
+    added what this takes.
     Raises ``CorruptLog`` for a log that is not what was written.
     """
     from .reports import pages  # jinja2 and plotly load only when there is something to show
 
-    came = judged(folder, records, seconds, workers)
+    cost = cost or Cost(workers)
+    with cost.phase("judging"):
+        came = judged(folder, records, seconds, workers)
+    cost.judging = came.spent
     stale = (
         deviations.unmatched(came.verdicts, deviations.recorded(), came.partly) if facts.get("whole") else []
     )
@@ -122,7 +135,8 @@ def report(
         stale,
         came.localised,
     )
-    pages.write(folder, found, came.pictures)
+    with cost.phase("report"):
+        pages.write(folder, found, came.pictures)
     return found
 
 
@@ -156,7 +170,7 @@ def again(folder: Path, workers: int = 1) -> dict[str, Any]:
 
 
 def _simulated(
-    laid: Plan, folder: Path, workers: int, time_limit: float, progress: Progress
+    laid: Plan, folder: Path, workers: int, time_limit: float, progress: Progress, cost: Cost
 ) -> list[CellRecord]:
     done = 0
 
@@ -168,6 +182,7 @@ def _simulated(
     # The longest first: no worker is left with one long cell while the other has nothing to do.
     longest_first = sorted(laid.requests.values(), key=lambda request: request.dt)
     outcomes = {o.request: o for o in runner.run(longest_first, folder / LOGS, workers, time_limit, count)}
+    cost.outcomes = [outcomes[request] for request in laid.requests.values()]
     return [_with_outcome(record, laid, outcomes, folder) for record in laid.records]
 
 

@@ -114,7 +114,7 @@ def test_a_wrong_engine_ends_with_1_and_damage_with_4(capsys, tmp_path, own):
     out = tmp_path / "out"
     arguments = ["run", TOP, "--engine", f"{own}:Still", "--dt", "0.02", "--no-timing", "--out", str(out)]
     assert main(arguments) == 1
-    assert {"report.html", "summary.md", "results.json", "junit.xml", "logs"} == {
+    assert {"report.html", "summary.md", "results.json", "junit.xml", "cost.json", "logs"} == {
         p.name for p in out.iterdir()
     }
     before = json.loads((out / "results.json").read_text())
