@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 from .deviations import KNOWN
 from .digest import Column, Digest, Group, Record
-from .results import GRAVITY
 from .verdict import Status
 from .wording import number, steps
+
+#: What an engine does is told before what was not looked at.
+ORDER = (Status.ERROR, Status.FAIL, Status.FIXED, Status.KNOWN, Status.UNAVAILABLE, Status.UNSUPPORTED)
 
 
 @dataclass(frozen=True)
@@ -27,14 +29,14 @@ class Finding:
 
 
 def findings(digest: Digest) -> list[Finding]:
-    """Everything that is not a pass, worst first, then in the order of the matrix."""
+    """Everything that is not a pass, by status in ``ORDER``, then in the order of the matrix."""
     merged: dict[tuple[Status, str, str], list[tuple[Group, Record, float]]] = {}
     for group in digest.groups.values():
         for key, record, dt in _told(group):
             merged.setdefault(key, []).append((group, record, dt))
     return [
         _finding(digest, key, found)
-        for key, found in sorted(merged.items(), key=lambda item: GRAVITY.index(item[0][0]))
+        for key, found in sorted(merged.items(), key=lambda item: ORDER.index(item[0][0]))
     ]
 
 

@@ -136,8 +136,14 @@ def _settings(digest: Digest) -> list[tuple[str, str, str]]:
     return [(digest.named(columns), name, value) for (name, value), columns in found.items()]
 
 
-def _verdict_rows(group: Group) -> list[tuple[str, str, list[Record | None]]]:
-    """Check, observable and the verdict of each of the group's other cells, where there is one."""
-    kinds = dict.fromkeys((v["check"], v["observable"]) for cell in group.others for v in cell["verdicts"])
+def _verdict_rows(group: Group) -> list[tuple[str, str, str, list[Record | None]]]:
+    """Check, observable, unit and the verdict of each of the group's other cells, where there is one."""
+    units: dict[tuple[str, str], dict[str, None]] = {}
+    for verdict in (verdict for cell in group.others for verdict in cell["verdicts"]):
+        units.setdefault((verdict["check"], verdict["observable"]), {})[verdict["unit"]] = None
     by_cell = [{(v["check"], v["observable"]): v for v in cell["verdicts"]} for cell in group.others]
-    return [(*kind, [verdicts.get(kind) for verdicts in by_cell]) for kind in kinds]
+    # A verdict without a number has no unit either.
+    return [
+        (*kind, " or ".join(filter(None, named)), [verdicts.get(kind) for verdicts in by_cell])
+        for kind, named in units.items()
+    ]

@@ -2,7 +2,7 @@
 
 import base64
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,47 +42,67 @@ class Motion:
 def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | None:
     """Error against run time and against the step, each for every observable of one scene.
 
-    ``rows`` are those of ``work_precision`` for that scene. The result holds ``views``: label of
-    the observable, label of the x axis, plotly ``data``, the axes' titles, the Pareto ``front``, and a note
-    on whatever has no place on these axes. ``None`` where there are no rows, or but one step and no time.
+    ``rows`` are those of ``work_precision`` for that scene. The result holds ``lines``, one a scheme: how
+    plotly draws it, and its configurations from the finest step on (``x`` by axis, ``told`` on hover);
+    ``axes``: what errors stand against; ``observables``: the ``errors`` of every line at its configurations,
+    and for each axis the Pareto ``fronts`` and ``notes`` on whatever has no place there. What all views share
+    is thus said once. ``None`` where there are no rows, or but one step and no time.
     """
     table = list(rows)
     timed = any(row["seconds_median"] is not None for row in table)
     if not timed and len({row["dt"] for row in table}) < 2:
         return None
-    styles = {(column.engine, column.version, column.scheme): column for column in columns}
-    abscissae = (["seconds_median"] if timed else []) + ["dt"]
-    observables = dict.fromkeys((row["observable"], row["unit"]) for row in table)
-    views = [
-        _view(name, unit, x, [row for row in table if row["observable"] == name], styles)
-        for name, unit in observables
-        for x in abscissae
-    ]
-    return {"timed": timed, "views": views}
-
-
-_X = {"seconds_median": ("run time", "run time, median [s]"), "dt": ("step", "step dt [s]")}
-
-
-def _view(
-    name: str, unit: str, x: str, rows: list[Record], styles: Mapping[tuple[str, str, str], Column]
-) -> Figure:
-    lines: dict[Column, list[Record]] = {}
-    lost: list[Record] = []
-    for row in rows:
-        column = styles[row["engine"], row["engine_version"] or "", row["scheme"]]
-        fits = _on_log_axis(row[x]) and _on_log_axis(row["error"])
-        (lines.setdefault(column, []) if fits else lost).append(row)
-    ordered = sorted(lines, key=lambda column: column.place)
-    label, title = _X[x]
+    axes = (["seconds_median"] if timed else []) + ["dt"]
+    lines = _lines(table, columns)
+    observables: dict[tuple[str, str], list[Record]] = {}
+    for row in table:
+        observables.setdefault((row["observable"], row["unit"]), []).append(row)
     return {
-        "observable": f"{name} [{unit}]",
-        "against": label,
-        "x": title,
-        "y": f"error of {name} [{unit}]",
-        "data": [_line(column, x, lines[column], unit) for column in ordered],
-        "front": _front(x, [row for mine in lines.values() for row in mine]),
-        "note": _not_drawn(lost, x),
+        "timed": timed,
+        "axes": [{"key": key, "label": _AXES[key][0], "title": _AXES[key][1]} for key in axes],
+        "lines": [_line(column, axes, points) for column, points in lines.items()],
+        "observables": [_errors(*named, axes, mine, lines) for named, mine in observables.items()],
+    }
+
+
+_AXES = {"seconds_median": ("run time", "run time, median [s]"), "dt": ("step", "step dt [s]")}
+#: What makes a configuration: the errors of several observables belong to one where these are equal.
+_CONFIGURATION = ("dt", "steps", "seconds_min", "seconds_median", "repeats", "us_per_call")
+
+Lines = dict[Column, list[tuple[Any, ...]]]
+
+
+def _lines(table: list[Record], columns: Iterable[Column]) -> Lines:
+    """The configurations of each scheme that has an error to draw, finest step first."""
+    styles = {(column.engine, column.version, column.scheme): column for column in columns}
+    found: dict[Column, dict[tuple[Any, ...], None]] = {}
+    for row in table:
+        if _on_log_axis(row["error"]):
+            found.setdefault(styles[_place(row)], {})[_configuration(row)] = None
+    ordered = sorted(found, key=lambda column: column.place)
+    return {column: sorted(found[column], key=lambda each: float(each[0])) for column in ordered}
+
+
+def _place(row: Record) -> tuple[str, str, str]:
+    return row["engine"], row["engine_version"] or "", row["scheme"]
+
+
+def _configuration(row: Record) -> tuple[Any, ...]:
+    return tuple(row.get(key) for key in _CONFIGURATION)
+
+
+def _errors(name: str, unit: str, axes: list[str], rows: list[Record], lines: Lines) -> Figure:
+    """What one observable adds to the lines; an error that no logarithmic axis takes is ``None``."""
+    drawn = [row for row in rows if _on_log_axis(row["error"])]
+    found = {(_place(row), _configuration(row)): _digits(row["error"]) for row in drawn}
+    of = [((column.engine, column.version, column.scheme), points) for column, points in lines.items()]
+    return {
+        "label": f"{name} [{unit}]",
+        "title": f"error of {name} [{unit}]",
+        "unit": unit,
+        "errors": [[found.get((place, point)) for point in points] for place, points in of],
+        "fronts": [_front(x, [row for row in drawn if _on_log_axis(row[x])]) for x in axes],
+        "notes": [_not_drawn(rows, x) for x in axes],
     }
 
 
@@ -98,23 +118,22 @@ def _on_log_axis(value: float | None) -> bool:
     return value is not None and math.isfinite(value) and value > 0
 
 
-def _line(column: Column, x: str, rows: list[Record], unit: str) -> Figure:
-    """One scheme over its steps, finest first; the page gives it its engine's colour."""
-    rows = sorted(rows, key=lambda row: float(row["dt"]))
+def _line(column: Column, axes: list[str], points: list[tuple[Any, ...]]) -> Figure:
+    """One scheme over its steps; the page gives it its engine's colour and the errors it is to show."""
     engine, scheme = column.place
+    rows = [dict(zip(_CONFIGURATION, point, strict=True)) for point in points]
     return {
-        "type": "scatter",
-        "mode": "lines+markers",
-        "name": column.label,
-        "meta": engine,
-        "x": [_digits(row[x]) for row in rows],
-        "y": [_digits(row["error"]) for row in rows],
-        "customdata": [[number(row["dt"]), row["steps"], _time(row)] for row in rows],
-        "marker": {"symbol": SYMBOLS[scheme % len(SYMBOLS)], "size": 7},
-        "line": {"dash": DASHES[scheme % len(DASHES)], "width": 1.5},
-        "hovertemplate": f"<b>{column.engine} {column.version}, {column.scheme}</b><br>"
-        "dt %{customdata[0]} s, %{customdata[1]} steps<br>"
-        f"error %{{y:.2e}} {unit}<br>%{{customdata[2]}}<extra></extra>",
+        "trace": {
+            "type": "scatter",
+            "mode": "lines+markers",
+            "name": column.label,
+            "meta": engine,
+            "marker": {"symbol": SYMBOLS[scheme % len(SYMBOLS)], "size": 7},
+            "line": {"dash": DASHES[scheme % len(DASHES)], "width": 1.5},
+        },
+        "who": f"{column.engine} {column.version}, {column.scheme}",
+        "x": {key: [_digits(row[key]) if _on_log_axis(row[key]) else None for row in rows] for key in axes},
+        "told": [[number(row["dt"]), row["steps"], _time(row)] for row in rows],
     }
 
 
@@ -131,15 +150,16 @@ def _time(row: Record) -> str:
     return f"median {number(row['seconds_median'])} s, {spread}, {count(row['repeats'], 'repeat')}{call}"
 
 
-def _not_drawn(lost: list[Record], x: str) -> str:
+def _not_drawn(rows: list[Record], x: str) -> str:
     """What a logarithmic plot cannot show, in words."""
-    if not lost:
-        return ""
     words: dict[str, dict[str, None]] = {}
-    for row in lost:
+    for row in rows:
+        if _on_log_axis(row[x]) and _on_log_axis(row["error"]):
+            continue
         reason = "not timed" if not _on_log_axis(row[x]) else _odd(row["error"])
         words.setdefault(reason, {})[f"{row['engine']} {row['scheme']} (dt {number(row['dt'])} s)"] = None
-    return "Not drawn: " + "; ".join(f"{reason}: {', '.join(who)}" for reason, who in words.items()) + "."
+    said = "; ".join(f"{reason}: {', '.join(who)}" for reason, who in words.items())
+    return f"Not drawn: {said}." if said else ""
 
 
 def _odd(error: float | None) -> str:
@@ -150,7 +170,7 @@ def motion_figures(motion: Motion, columns: Iterable[Column]) -> list[Figure]:
     """One figure for each picture of the scene: the truth as a line, every run as dots over it.
 
     A figure holds its ``title``, ``axes``, ``equal``, the ``box`` that the truth fills (lowest and
-    highest corner) and ``curves``; these hold t and each axis as 16-bit fractions of their own range.
+    highest corner) and ``curves``; these hold t and each axis as ``_packed`` has them.
     """
     if not motion.scene.pictures:
         return []
@@ -234,15 +254,21 @@ def _first_shown(drawn: list[tuple[Column, Array]], apart: Array) -> list[Column
 
 
 def _packed(points: Array) -> Figure:
-    """(n, k) as little-endian 16-bit fractions of each column's range, column by column."""
+    """(n, k) as little-endian 16-bit fractions of each column's range, column by column.
+
+    Columns that run evenly from their least to their greatest, as times do, are ``even`` and hold no data.
+    """
     if not len(points):
-        return {"n": 0, "low": [], "high": [], "data": ""}
+        return {"n": 0, "low": [], "high": [], "even": [], "data": ""}
     low, high = points.min(axis=0), points.max(axis=0)
     span = np.where(high > low, high - low, 1.0)
-    fractions = np.rint((points - low) / span * 65535).astype("<u2")
+    fractions = (points - low) / span * 65535
+    straight = np.outer(np.linspace(0.0, 65535.0, len(points)), high > low)
+    even = (abs(fractions - straight) <= 0.5).all(axis=0)
     return {
         "n": len(points),
         "low": [_digits(x) for x in low.tolist()],
         "high": [_digits(x) for x in high.tolist()],
-        "data": base64.b64encode(fractions.T.tobytes()).decode(),
+        "even": np.flatnonzero(even).tolist(),
+        "data": base64.b64encode(np.rint(fractions.T[~even]).astype("<u2").tobytes()).decode(),
     }

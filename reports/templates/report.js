@@ -88,36 +88,48 @@
 
   function prepareCost(plot) {
     plot.element.querySelector(".pick").replaceChildren();
-    const unique = (key) => [...new Set(plot.spec.views.map((view) => view[key]))];
-    plot.observable = picker(plot, "Error of", unique("observable"));
-    plot.against = picker(plot, "against", unique("against"));
-    const lines = new Map(plot.spec.views.flatMap((view) => view.data).map((line) => [line.name, line]));
-    prepareKey(plot, [...lines.values()].map((line) => ({ name: line.name, engine: line.meta, symbol: line.marker.symbol, shown: true })));
+    plot.observable = picker(plot, "Error of", plot.spec.observables.map((each) => each.label));
+    plot.against = picker(plot, "against", plot.spec.axes.map((each) => each.label));
+    prepareKey(plot, plot.spec.lines.map(({ trace }) => ({ name: trace.name, engine: trace.meta, symbol: trace.marker.symbol, shown: true })));
+  }
+
+  // A scheme's errors where both axes have a place for them.
+  function costTrace(plot, { trace, who, x, told }, errors, key, unit) {
+    const drawn = errors.map((_, i) => i).filter((i) => errors[i] !== null && x[key][i] !== null);
+    const place = (values) => drawn.map((i) => values[i]);
+    return {
+      ...trace, x: place(x[key]), y: place(errors), customdata: place(told), visible: !plot.hidden.has(trace.name),
+      line: { ...trace.line, color: color(trace.meta) }, marker: { ...trace.marker, color: color(trace.meta) },
+      hovertemplate: `<b>${who}</b><br>dt %{customdata[0]} s, %{customdata[1]} steps<br>error %{y:.2e} ${unit}<br>%{customdata[2]}<extra></extra>`,
+    };
   }
 
   function drawCost(plot) {
-    const view = plot.spec.views.find((v) => v.observable === plot.observable.value && v.against === plot.against.value);
-    const data = view.data.map((line) => ({
-      ...line, visible: !plot.hidden.has(line.name),
-      line: { ...line.line, color: color(line.meta) }, marker: { ...line.marker, color: color(line.meta) },
-    }));
+    const { axes, lines, observables } = plot.spec, nth = plot.against.selectedIndex;
+    const { errors, fronts, notes, title, unit } = observables[plot.observable.selectedIndex];
+    const data = lines.map((line, k) => costTrace(plot, line, errors[k], axes[nth].key, unit)).filter((trace) => trace.x.length);
+    const front = fronts[nth];
     // Beneath all curves, and wide: what no configuration beats both in error and in time.
-    if (view.front) {
-      data.unshift({ type: "scatter", mode: "lines", name: "Pareto front", ...view.front, hoverinfo: "skip", line: { color: theme().grid, width: 9, shape: "hv" } });
+    if (front) {
+      data.unshift({ type: "scatter", mode: "lines", name: "Pareto front", ...front, hoverinfo: "skip", line: { color: theme().grid, width: 9, shape: "hv" } });
     }
-    plot.element.querySelector(".view").textContent = (view.front ? "Grey band: the Pareto front, which nothing beats in both error and run time. " : "") + view.note;
+    plot.element.querySelector(".view").textContent = (front ? "Grey band: the Pareto front, which nothing beats in both error and run time. " : "") + notes[nth];
     show(plot, data, {
       ...frame(plot, 400),
-      xaxis: logAxis(view.x, data.flatMap((line) => line.x)), yaxis: logAxis(view.y, data.flatMap((line) => line.y)),
+      xaxis: logAxis(axes[nth].title, data.flatMap((line) => line.x)), yaxis: logAxis(title, data.flatMap((line) => line.y)),
     });
   }
 
   // Pictures of motion.
-  function unpack({ n, low, high, data }) {
-    const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
-    const view = new DataView(bytes.buffer);
-    return low.map((start, k) =>
-      Array.from({ length: n }, (_, i) => start + (view.getUint16(2 * (k * n + i), true) / 65535) * (high[k] - start)));
+  // Columns are fractions of their own range; those that run evenly from end to end are not in the data.
+  function unpack({ n, low, high, even, data }) {
+    const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0)), view = new DataView(bytes.buffer);
+    let at = 0;
+    return low.map((start, k) => {
+      const from = even.includes(k) ? -1 : 2 * n * at++;
+      const part = (i) => (from < 0 ? i / Math.max(1, n - 1) : view.getUint16(from + 2 * i, true) / 65535);
+      return Array.from({ length: n }, (_, i) => start + part(i) * (high[k] - start));
+    });
   }
 
   function slider(plot, name, from, to, at) {

@@ -73,11 +73,10 @@ def test_a_cell_that_says_nothing_is_given_the_words_of_its_status(results):
     assert Status.ERROR.sentence in [finding.sentence for finding in told(changed, Status.ERROR)]
 
 
-def test_the_worst_comes_first(results):
-    statuses = [finding.status for finding in findings(Digest(results))]
+def test_the_worst_comes_first_and_what_was_not_looked_at_last(results):
+    statuses = [finding.status.value for finding in findings(Digest(results))]
+    assert list(dict.fromkeys(statuses)) == ["error", "fail", "fixed", "known", "unavailable", "unsupported"]
     assert statuses == sorted(statuses, key=statuses.index), "a status comes up twice"
-    assert statuses[0] is Status.ERROR
-    assert set(statuses) == set(Status) - {Status.PASS}
 
 
 def test_statuses_can_be_told_apart_without_colour():

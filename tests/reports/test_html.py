@@ -208,6 +208,6 @@ def test_a_large_run_stays_one_file_of_reasonable_size(remade, moved, tmp_path, 
     names = tuple(f"scene_{n}[variant]" for n in range(35))
     text = rendered(remade(names), tmp_path, moved(names))
     library = max(len(script) for script in Page(text).scripts)
-    # A message with attachments may have 25 MB; per scene and scheme the report spends about 22 kB.
-    assert len(text.encode()) < 16e6
-    assert (len(text) - library) / (35 * 12) < 26e3
+    # A message with attachments may have 25 MB; per scene and scheme the report spends about 12 kB.
+    assert len(text.encode()) < 12e6
+    assert (len(text) - library) / (35 * 12) < 14e3

@@ -20,16 +20,29 @@ def figure(results, scene=SCENE):
 
 
 def view(results, observable="orientation [rad]", against="run time"):
-    (found,) = [
-        v for v in figure(results)["views"] if (v["observable"], v["against"]) == (observable, against)
-    ]
-    return found
+    """What a reader sees of one observable against one axis, put together as the page does it."""
+    found = figure(results)
+    (nth,) = [n for n, axis in enumerate(found["axes"]) if axis["label"] == against]
+    (of,) = [each for each in found["observables"] if each["label"] == observable]
+    key = found["axes"][nth]["key"]
+    data = [_seen(line, key, errors) for line, errors in zip(found["lines"], of["errors"], strict=True)]
+    data = [line for line in data if line["x"]]
+    return {"data": data, "front": of["fronts"][nth], "note": of["notes"][nth]}
+
+
+def _seen(line, key, errors):
+    rows = zip(line["x"][key], errors, line["told"], strict=True)
+    x, y, told = zip(*[row for row in rows if None not in row[:2]] or [[()] * 3], strict=True)
+    return {**line["trace"], "x": x, "y": y, "customdata": told}
 
 
 def unpacked(curve):
-    fractions = np.frombuffer(base64.b64decode(curve["data"]), dtype="<u2").reshape(-1, curve["n"])
+    data = np.frombuffer(base64.b64decode(curve["data"]), dtype="<u2").reshape(-1, curve["n"])
+    columns = list(data / 65535)
+    for k in curve["even"]:
+        columns.insert(k, np.linspace(0.0, 1.0, curve["n"]))
     low, high = np.array(curve["low"])[:, None], np.array(curve["high"])[:, None]
-    return (low + fractions / 65535 * (high - low)).T
+    return (low + np.array(columns) * (high - low)).T
 
 
 def test_each_scheme_is_one_line_over_its_steps_with_its_configuration_on_hover(results):
@@ -44,16 +57,18 @@ def test_each_scheme_is_one_line_over_its_steps_with_its_configuration_on_hover(
     rows.sort(key=lambda row: row["dt"])
     np.testing.assert_allclose(rk4["x"], [row["seconds_median"] for row in rows], rtol=1e-5)
     np.testing.assert_allclose(rk4["y"], [row["error"] for row in rows], rtol=1e-5)
-    assert [float(row[0]) for row in rk4["customdata"]] == [row["dt"] for row in rows]
-    for word in ("mujoco 4.0.0, RK4", "{customdata[0]} s, %{customdata[1]} steps", "rad", "{customdata[2]}"):
-        assert word in rk4["hovertemplate"]
+    told = [(float(dt), steps) for dt, steps, _ in rk4["customdata"]]
+    assert told == [(row["dt"], row["steps"]) for row in rows]
     assert rk4["customdata"][0][2].endswith("10 repeats")
+    assert "mujoco 4.0.0, RK4" in [line["who"] for line in figure(results)["lines"]]
 
 
 def test_plotly_itself_accepts_every_line(results):
-    for each in figure(results)["views"]:
-        drawn = plotly.graph_objects.Figure(data=each["data"])
-        assert len(drawn.data) == len(each["data"]) > 0
+    found = figure(results)
+    for of in found["observables"]:
+        for axis in found["axes"]:
+            data = view(results, of["label"], axis["label"])["data"]
+            assert len(plotly.graph_objects.Figure(data=data).data) == len(data) > 0
 
 
 def test_no_point_lies_below_the_front_and_the_front_falls(results):
@@ -77,8 +92,8 @@ def test_schemes_of_an_engine_share_its_colour_and_differ_in_sign_and_dash(resul
 def test_a_run_that_was_not_timed_is_drawn_against_the_step(remade):
     untimed = figure(remade(timed=False))
     assert not untimed["timed"]
-    assert {each["against"] for each in untimed["views"]} == {"step"}
-    assert "not timed" in untimed["views"][0]["data"][0]["customdata"][0][2]
+    assert [axis["label"] for axis in untimed["axes"]] == ["step"]
+    assert "not timed" in untimed["lines"][0]["told"][0][2]
 
 
 def test_what_has_no_place_on_logarithmic_axes_is_named(results):
@@ -90,8 +105,30 @@ def test_what_has_no_place_on_logarithmic_axes_is_named(results):
     assert "error not finite: mujoco Euler (dt 1.00e-03 s)" in found["note"]
     assert "not timed: mujoco Euler (dt 5.00e-04 s)" in found["note"]
     assert len(found["data"][0]["x"]) == 2
-    assert "not timed" not in view(changed, against="step")["note"], "the step needs no time"
+    against_step = view(changed, against="step")
+    assert len(against_step["data"][0]["x"]) == 3
+    assert "not timed" not in against_step["note"], "the step needs no time"
     json.dumps(figure(changed), allow_nan=False)
+
+
+def test_each_error_stands_at_its_own_time_where_observables_were_timed_apart(results):
+    changed = copy.deepcopy(results)
+    rows = [r for r in changed["work_precision"] if (r["scene"], r["observable"]) == (SCENE, "orientation")]
+    for row in rows:
+        row["seconds_median"] *= 10
+    for observable, factor in (("orientation [rad]", 10), ("omega [rad/s]", 1)):
+        for now, before in zip(
+            view(changed, observable)["data"], view(results, observable)["data"], strict=True
+        ):
+            np.testing.assert_allclose(now["x"], factor * np.array(before["x"]), rtol=1e-5)
+            assert now["y"] == before["y"]
+
+
+def test_what_observables_share_is_said_once(results):
+    text = json.dumps(figure(results))
+    for line in figure(results)["lines"]:
+        assert text.count(f'"{line["who"]}"') == 1
+    assert text.count(" repeats") == sum(len(line["told"]) for line in figure(results)["lines"])
 
 
 def test_a_scene_without_rows_has_no_figure(results):
@@ -111,6 +148,7 @@ def test_pictures_hold_the_truth_densely_and_the_runs_at_their_samples(results, 
     np.testing.assert_allclose(unpacked(truth), expected, atol=10 / 65535)
     np.testing.assert_allclose(unpacked(truth)[:, 1:], expected[:, 1:], atol=1e-5)
     assert [run["name"] for run in runs][:2] == ["mujoco Euler", "mujoco implicit"]
+    assert truth["even"] == runs[0]["even"] == [0], "times are told by their ends"
     samples = unpacked(runs[0])[:, 0]
     np.testing.assert_allclose(samples * 50, np.rint(samples * 50), atol=1e-2)
     corners = [expected[:, 1:].min(axis=0), expected[:, 1:].max(axis=0)]
