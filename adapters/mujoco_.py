@@ -10,7 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
-from ..scenarios.scene import FEATURES, Scene
+from ..scenarios.features import FEATURES
+from ..scenarios.scene import Scene
 from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
 from .mujoco_burning import Masses

@@ -9,7 +9,8 @@ import pinocchio as pin
 
 from ..reference.checked import Array
 from ..scenarios.body import WIDTHS, Body, Joint
-from ..scenarios.scene import FEATURES, Scene
+from ..scenarios.features import FEATURES
+from ..scenarios.scene import Scene
 from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
 from .pinocchio_burning import Masses

@@ -9,7 +9,8 @@ import numpy as np
 from ..reference.checked import Array, finite
 from ..reference.quaternions import conjugate, product, rotated
 from ..scenarios.body import IDENTITY
-from ..scenarios.scene import FEATURES, Scene
+from ..scenarios.features import FEATURES
+from ..scenarios.scene import Scene
 from . import pybullet_blows as blows
 from . import pybullet_contact as contact
 from . import pybullet_limits as limits

@@ -10,7 +10,8 @@ import numpy as np
 from ..reference.checked import Array
 from ..reference.errors import InputError
 from ..scenarios.equations import states
-from ..scenarios.scene import FEATURES, Scene
+from ..scenarios.features import FEATURES
+from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Provenance, Trajectory
 from . import spent
 from .engine import Engine, EngineError, Reacting, Scheme, State, settings_in

@@ -11,7 +11,7 @@ from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup, escape
 from plotly.offline.offline import get_plotlyjs
 
-from ..scenarios.scene import FEATURES
+from ..scenarios.features import FEATURES
 from .cheapest import cheapest
 from .common_causes import spoken
 from .digest import Column, Digest, Group, Record

@@ -12,42 +12,12 @@ from ..reference.checked import Array, finite, positive
 from ..reference.errors import InputError
 from .body import WIDTHS, Body, Joint, Vector
 from .burning import Burning
-from .contact import Contact, Rim
+from .contact import Contact
+from .features import left_out, needed
 from .forces import Constant, Force, Spring
 from .observables import Observable
 from .pictures import Picture
 from .trajectory import Trajectory
-
-#: Everything a scene may ask of an engine; what it does not name is left out of the model.
-FEATURES: dict[str, str] = {
-    "free": "a body that moves freely",
-    "ball": "ball joints",
-    "hinge": "hinges",
-    "slide": "sliding joints",
-    "weld": "a body welded to its parent",
-    "tree": "several bodies joined to each other",
-    "gravity": "gravity",
-    "spring": "springs in joints",
-    "damper": "dampers in joints",
-    "contact": "contact",
-    "friction": "friction in contacts",
-    "rim": "contact on the rim of a disc",
-    "force": "forces that depend on where bodies are or how fast",
-    "burning": "masses that fall while a scene runs",
-    "reaction": "reactions of joints",
-    "solid": "masses and inertias that the engine works out from shapes",
-    "ellipsoid": "solid ellipsoids",
-    "shell": "hollow spheres that are all surface",
-    "hollow": "solids with a hollow",
-}
-
-#: Features that only have a meaning beside another: not told of as left out where that one is.
-DETAILS: dict[str, str] = {
-    "friction": "contact", "rim": "contact", "ellipsoid": "solid", "shell": "solid", "hollow": "solid",
-}  # fmt: skip
-
-#: What no scene gets unless a later feature names it, in words for the report.
-NEVER_BUILT = ("collision shapes", "contact solver", "actuators", "sensors", "renderer", "ground")
 
 Truth = Callable[["Scene", Array], Trajectory]
 SchemeMotion = Callable[["Scene", str, float, Array], Trajectory | None]
@@ -156,37 +126,12 @@ class Scene:
     @cached_property
     def features(self) -> frozenset[str]:
         """What an engine must have to build this scene: keys of ``FEATURES``."""
-        found = {joint.kind for joint in self.joints}
-        solids = [solid for body in self.bodies for solid in body.solids]
-        optional = {
-            "weld": any(not body.joints for body in self.bodies),
-            "tree": any(body.parent for body in self.bodies),
-            "gravity": any(self.gravity),
-            "spring": any(joint.stiffness for joint in self.joints),
-            "damper": any(joint.damping for joint in self.joints),
-            "contact": bool(self.contacts),
-            "friction": any(contact.friction for contact in self.contacts),
-            "rim": any(isinstance(contact.shape, Rim) for contact in self.contacts),
-            "force": bool(self.forces),
-            "burning": bool(self.burning),
-            "reaction": bool(self.reactions),
-            "solid": bool(solids),
-            "ellipsoid": any(solid.form == "ellipsoid" for solid in solids),
-            "shell": any(solid.form == "shell" for solid in solids),
-            "hollow": any(solid.taken_away for solid in solids),
-        }
-        return frozenset(found | {name for name, present in optional.items() if present})
+        return needed(self)
 
     @cached_property
     def left_out(self) -> tuple[str, ...]:
         """What an engine's model of this scene does not hold, in words."""
-        needed = {"collision shapes", "contact solver"} if self.contacts else set[str]()
-        if any(contact.second is None for contact in self.contacts):
-            needed.add("ground")
-        never = [part for part in NEVER_BUILT if part not in needed]
-        missing = [name for name in FEATURES if name not in self.features]
-        told = [FEATURES[name] for name in missing if DETAILS.get(name) not in missing]
-        return (*told, *never)
+        return left_out(self)
 
     def sample_times(self) -> Array:
         """Times of the samples, (samples + 1,) [s], the start included."""

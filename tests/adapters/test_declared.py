@@ -53,7 +53,7 @@ def test_a_file_without_an_engine_is_named(tmp_path):
 
 
 FILE = """
-from ..scenarios.scene import FEATURES
+from ..scenarios.features import FEATURES
 from .engine import Scheme
 import an_engine_that_is_nowhere
 

@@ -7,9 +7,9 @@ import pytest
 from poinsot.adapters.declared import declared
 from poinsot.reference import equations_of_motion, quaternions
 from poinsot.scenarios import co2_chain
+from poinsot.scenarios.features import DETAILS, FEATURES, NEVER_BUILT
 from poinsot.scenarios.forces import forces_on
 from poinsot.scenarios.registry import scenes
-from poinsot.scenarios.scene import DETAILS, FEATURES, NEVER_BUILT
 from scipy.integrate import solve_ivp
 
 EVERY = pytest.mark.parametrize("scene", scenes().values(), ids=lambda scene: scene.full_name)
