@@ -39,7 +39,7 @@ class Centred:
         for at_q, at_v, offset in self.moved:
             turn, omega = q[at_q][3:], v[at_v][3:]
             q[at_q.start : at_q.start + 3] += quaternions.rotated(turn, offset)
-            v[at_v.start : at_v.start + 3] += quaternions.rotated(turn, np.cross(omega, offset))
+            v[at_v.start : at_v.start + 3] += quaternions.rotated(turn, quaternions.cross(omega, offset))
         return q, v
 
     def acceleration(self, q: Array, v: Array, found: Array) -> Array:
@@ -47,8 +47,10 @@ class Centred:
         result = np.array(found)
         for at_q, at_v, offset in self.moved:
             omega, alpha = v[at_v][3:], result[at_v][3:]
-            arm = np.cross(alpha, offset) + np.cross(omega, np.cross(omega, offset))
-            result[at_v.start : at_v.start + 3] -= quaternions.rotated(q[at_q][3:], arm)
+            inward = quaternions.cross(omega, quaternions.cross(omega, offset))
+            result[at_v.start : at_v.start + 3] -= quaternions.rotated(
+                q[at_q][3:], quaternions.cross(alpha, offset) + inward
+            )
         return result
 
     def center_of_mass(self, body: Body, found: Array) -> Array:

@@ -32,6 +32,8 @@ with caught():  # PyBullet prints when it was built
 _REDUCED, _MAXIMAL = "reduced coordinates", "maximal coordinates"
 #: Steps taken in one call. Only with powers of two is PyBullet's clock exact, so that no step is lost.
 _BATCHES = (256, 32, 1)
+#: Clients that nobody uses just now; to connect one takes longer than many a cell.
+_IDLE: list[int] = []
 
 
 class PyBullet:
@@ -113,14 +115,18 @@ class PyBullet:
         return "model.urdf", document(self._scene)
 
     def close(self) -> None:
-        """Let go of PyBullet's worlds."""
+        """Let go of PyBullet's worlds; a client is used again unless its solver was set for contacts."""
         while self._clients:
-            p.disconnect(self._clients.popitem()[1])
+            client = self._clients.popitem()[1]
+            if self._scene.contacts:
+                p.disconnect(client)
+            else:
+                _IDLE.append(client)
         self._copy = None
 
     def _client(self, name: str) -> int:
         if name not in self._clients:
-            self._clients[name] = p.connect(p.DIRECT)
+            self._clients[name] = _IDLE.pop() if _IDLE else p.connect(p.DIRECT)
         return self._clients[name]
 
     def _loaded(self, scene: Scene) -> "_World":

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..reference.checked import Array
-from ..reference.quaternions import conjugate, matrix, product, rotated
+from ..reference.quaternions import conjugate, cross, matrix, product, rotated
 from ..scenarios.scene import Scene
 from .pybullet_urdf import joint_name
 
@@ -103,7 +103,7 @@ def of_base(q: Array, v: Array, center: Array, axes: Array) -> tuple[Array, Arra
     """
     turn, omega = q[3:], rotated(q[3:], v[3:])
     arm = rotated(turn, center)
-    return q[:3] + arm, product(turn, axes), v[:3] + np.cross(omega, arm), omega
+    return q[:3] + arm, product(turn, axes), v[:3] + cross(omega, arm), omega
 
 
 def of_ball(q: Array, v: Array, axes: Array) -> tuple[Array, Array]:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..reference.checked import Array
-from ..reference.quaternions import conjugate, rotated
+from ..reference.quaternions import conjugate, cross, rotated
 from ..scenarios.scene import Scene
 
 #: ``change(q, v, dt, steps)``: change of the velocities (nv,) over so many steps, by their duration.
@@ -136,7 +136,7 @@ def at_origin(center: Array, turn: Array, omega: Array, arm: Array) -> Array:
     is in the body [m].
     """
     omega, alpha, arm = rotated(turn, omega), center[3:], rotated(turn, arm)
-    origin = center[:3] - np.cross(alpha, arm) - np.cross(omega, np.cross(omega, arm))
+    origin = center[:3] - cross(alpha, arm) - cross(omega, cross(omega, arm))
     return np.concatenate([origin, rotated(conjugate(turn), alpha)])
 
 

@@ -25,13 +25,17 @@ Asked = TypeVar("Asked")
 
 @dataclass(frozen=True)
 class Request:
-    """One cell to run; ``engine`` is what ``registry.load`` takes, ``repeats`` how often it is run."""
+    """One cell to run, ``repeats`` times; ``engine`` is what ``registry.load`` takes.
+
+    ``asked`` tells whether the engine's accelerations and its largest stable step are wanted as well.
+    """
 
     scene: str
     engine: str
     scheme: str
     dt: float
     repeats: int = 1
+    asked: bool = False
 
 
 class Failure(str):
@@ -145,7 +149,7 @@ def _logged(request: Request, folder: Path) -> tuple[str, int | None, dict[str, 
     with spent.on("loading"):
         engine = registry.load(request.engine)
     scene, scheme = scenes()[request.scene], registry.scheme_of(engine, request.scheme)
-    trajectory, model = simulate(scene, engine, scheme, request.dt, request.repeats)
+    trajectory, model = simulate(scene, engine, scheme, request.dt, request.repeats, request.asked)
     path = folder / file_name(request)
     with spent.on("logging"):
         log.write(path, scene, trajectory, model)

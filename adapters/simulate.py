@@ -32,12 +32,18 @@ def unsupported(scene: Scene, engine: type[Engine], scheme: Scheme) -> str:
 
 
 def simulate(
-    scene: Scene, engine: type[Engine], scheme: Scheme, dt: float, repeats: int = 1
+    scene: Scene,
+    engine: type[Engine],
+    scheme: Scheme,
+    dt: float,
+    repeats: int = 1,
+    asked: bool | None = None,
 ) -> tuple[Trajectory, Mapping[str, str]]:
     """Run one cell in this process: its trajectory with provenance, and the model text by file name.
 
-    The cell is built and run ``repeats`` times; the hashes of all of them go into the provenance, and of
-    a cell that is repeated the engine's accelerations too, and its largest stable step where theory has one.
+    The cell is built and run ``repeats`` times; the hashes of all of them go into the provenance. Where it
+    is ``asked``, and unless told otherwise where it is repeated, so do the engine's accelerations, and its
+    largest stable step where theory has one.
     ``dt`` [s] is rounded to a whole number of steps between samples. Raises ``UnsupportedError``
     if the engine lacks a feature, ``EngineError`` if it breaks down, ``InputError`` for a step out
     of range.
@@ -46,6 +52,7 @@ def simulate(
     if reason:
         raise UnsupportedError(f"scene {scene.full_name} with {engine.name} {scheme.name}: {reason}")
     dt = scene.whole_step(dt)
+    asked = repeats > 1 if asked is None else asked
     machine = engine()
     try:
         with spent.on("building"):
@@ -54,7 +61,7 @@ def simulate(
         with spent.on("setup"):
             setup = machine.readback()
         with spent.on("accelerations"):
-            accelerations = _accelerations(machine, scene, scheme) if repeats > 1 else ()
+            accelerations = _accelerations(machine, scene, scheme) if asked else ()
         first = _record(machine, scene, dt)
         digests = [digest(first)]
         with spent.on("repeat"):
@@ -62,7 +69,7 @@ def simulate(
                 machine.build(scene, scheme, dt)
                 digests.append(digest(_record(machine, scene, dt)))
         with spent.on("stable step"):
-            sought = repeats > 1 and scene.stable_step is not None
+            sought = asked and scene.stable_step is not None
             limit = tuple(stable_step(machine, scene, scheme)) if sought else ()
     finally:
         machine.close()

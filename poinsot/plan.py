@@ -16,7 +16,7 @@ from .reports.verdict import Status
 from .scenarios.registry import scenes as all_scenes
 from .scenarios.scene import Scene
 
-#: How often the cell nearest to the scene's own step is run, so that its determinism can be judged.
+#: How often the cell nearest to the scene's own step is run, where its determinism is to be judged.
 REPEATS = 2
 
 
@@ -24,7 +24,10 @@ class Extent(Enum):
     """How much of every scene a run takes in: its variants, and steps beside its own."""
 
     QUICK = "each scene at its own step: orders, limits and the error over the step are left out"
-    USUAL = "ladders of the first variant of each scene; `--full` takes those of all variants"
+    USUAL = (
+        "ladders, and a second run for the same bits, of the first variant of each scene; `--full` takes those "
+        "of all variants"
+    )
     WHOLE = "every variant over its ladders"
     FULL = "everything, and the error over run time over three decades of steps"
 
@@ -69,7 +72,9 @@ def plan(
                 continue
             for scheme in engine.schemes:
                 if not schemes or scheme.name in schemes:
-                    _add(laid, scene, spec, engine, scheme, steps or _wanted(scene, scheme, extent, first))
+                    twice = bool(steps) or extent is not Extent.USUAL or first[scene.name] == scene.full_name
+                    wanted = steps or _wanted(scene, scheme, extent, first)
+                    _add(laid, scene, spec, engine, scheme, wanted, twice)
     everything = len(scenes) == len(all_scenes()) and len(loaded) == len(registry.names())
     laid.whole = everything and not (schemes or steps)
     if steps:
@@ -94,7 +99,13 @@ def _check_schemes(schemes: Sequence[str], engines: dict[str, type[Engine]]) -> 
 
 
 def _add(
-    laid: Plan, scene: Scene, spec: str, engine: type[Engine], scheme: Scheme, steps: Sequence[float]
+    laid: Plan,
+    scene: Scene,
+    spec: str,
+    engine: type[Engine],
+    scheme: Scheme,
+    steps: Sequence[float],
+    twice: bool,
 ) -> None:
     reason = unsupported(scene, engine, scheme)
     if reason:
@@ -115,7 +126,7 @@ def _add(
             laid.notes.append(
                 f"{scene.full_name}: dt {asked:g} s rounded to {dt:g} s, whole steps between samples."
             )
-        repeats = REPEATS if dt == own else 1
+        repeats = REPEATS if dt == own and twice else 1
         record = CellRecord(
             scene=scene.full_name,
             engine=engine.name,
@@ -128,7 +139,7 @@ def _add(
             settings=settings_in(engine, scene),
         )
         laid.records.append(record)
-        laid.requests[record.key] = Request(scene.full_name, spec, scheme.name, dt, repeats)
+        laid.requests[record.key] = Request(scene.full_name, spec, scheme.name, dt, repeats, dt == own)
 
 
 def _wanted(scene: Scene, scheme: Scheme, extent: Extent, first: Mapping[str, str]) -> tuple[float, ...]:

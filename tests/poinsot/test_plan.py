@@ -28,11 +28,18 @@ def test_how_many_steps_the_variants_of_a_scene_are_run_at(extent, first, second
 
 
 @pytest.mark.parametrize("extent", Extent)
-def test_one_cell_of_each_scheme_is_run_twice_for_its_determinism(extent):
+def test_one_cell_of_each_scheme_is_asked_everything_and_run_twice_for_its_determinism(extent):
     _, laid = cells(extent)
-    twice = [request for request in laid.requests.values() if request.repeats == 2]
-    assert Counter(request.scene for request in twice) == {LADDER: 1, ALONE: 1}
-    assert {request.dt for request in twice} == {1e-3}
+    asked = [request for request in laid.requests.values() if request.asked]
+    assert Counter(request.scene for request in asked) == {LADDER: 1, ALONE: 1}
+    assert {request.dt for request in asked} == {1e-3}
+    twice = [request.scene for request in laid.requests.values() if request.repeats == 2]
+    assert twice == ([LADDER] if extent is Extent.USUAL else [LADDER, ALONE])
+
+
+def test_every_step_that_is_named_is_run_twice_where_it_is_the_nearest():
+    laid = plan(select([LADDER, ALONE]), ["pinocchio"], ["semi-implicit Euler"], [2e-3, 1e-3], Extent.USUAL)
+    assert [request.repeats for request in laid.requests.values()] == [1, 2, 1, 2]
 
 
 def test_a_quick_run_of_everything_takes_the_first_variant_of_each_scene():
