@@ -15,7 +15,7 @@ from .reports import order, results, truth
 from .reports.cell import Cell
 from .reports.common_causes import Localisation
 from .reports.digest import Column, columns
-from .reports.judge import judge
+from .reports.judge import judge_cells
 from .reports.plots import Figure, Motion, motion_figures
 from .reports.results import CellRecord, Key
 from .reports.verdict import Ladder, Status, Verdict
@@ -89,7 +89,7 @@ def _judged(
     with spent.on("errors"):  # first, so that what the truth costs is not put on the checks
         rows = results.precision_rows(cells, seconds)
     with spent.on("checks"):
-        verdicts = judge(cell.trajectory for cell in cells)
+        verdicts = judge_cells(cells)
         found = Judged(
             verdicts=verdicts,
             localised=_localised(cells, verdicts),

@@ -25,8 +25,8 @@ class Extent(Enum):
 
     QUICK = "each scene at its own step: orders, limits and the error over the step are left out"
     USUAL = (
-        "ladders, and a second run for the same bits, of the first variant of each scene; `--full` takes those "
-        "of all variants"
+        "ladders, and a second run for the same bits, of the first variant of each scene; `--full` takes "
+        "those of all variants"
     )
     WHOLE = "every variant over its ladders"
     FULL = "everything, and the error over run time over three decades of steps"

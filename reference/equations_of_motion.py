@@ -148,7 +148,9 @@ def _solved(M: Array, rest: Array) -> Array:
 def _bias(links: Sequence[Link], state: Motion, v: Array) -> Array:
     omega, alpha = summed(state.partial_omega, v), summed(state.partial_omega_rate, v)
     inertia = _world_inertia(links, state)
-    turning = (inertia @ alpha[..., None])[..., 0] + np.cross(omega, (inertia @ omega[..., None])[..., 0])
+    turning = (inertia @ alpha[..., None])[..., 0] + quaternions.cross(
+        omega, (inertia @ omega[..., None])[..., 0]
+    )
     return _along(state, _masses(links)[:, None] * summed(state.partial_velocity_rate, v), turning)
 
 

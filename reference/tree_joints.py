@@ -56,7 +56,7 @@ def placed(frame: Frame, position: Array, quaternion: Array) -> Frame:
         frame,
         quaternion=quaternions.product(frame.quaternion, quaternion),
         origin=frame.origin + arm,
-        velocity=frame.velocity + np.cross(frame.omega, arm),
+        velocity=frame.velocity + quaternions.cross(frame.omega, arm),
     )
 
 
@@ -86,7 +86,7 @@ def moved(frame: Frame, joint: Joint, q: Array, v: Array) -> tuple[Frame, Column
 
 def _slid(frame: Frame, axis: Array, q: Array, v: Array) -> tuple[Frame, Columns]:
     direction = quaternions.rotated(frame.quaternion, axis)
-    direction_rate = np.cross(frame.omega, direction)
+    direction_rate = quaternions.cross(frame.omega, direction)
     after = replace(
         frame,
         origin=frame.origin + q * direction,
@@ -112,7 +112,7 @@ def _turned(frame: Frame, joint: Joint, turn: Array, axes: Array, v: Array) -> t
         np.ones(len(axes), dtype=bool),
         world_axes,
         np.broadcast_to(before.origin[..., None, :], world_axes.shape),
-        np.cross(omega[..., None, :], world_axes),
+        quaternions.cross(omega[..., None, :], world_axes),
         np.broadcast_to(before.velocity[..., None, :], world_axes.shape),
     )
     return placed(after, -position, NO_TURN), columns

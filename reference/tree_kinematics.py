@@ -50,16 +50,16 @@ def motion(links: Sequence[Link], q: npt.ArrayLike, v: npt.ArrayLike) -> Motion:
     quaternion = np.stack([frame.quaternion for frame in frames], axis=-2)
     offset = quaternions.rotated(quaternion, np.stack([np.asarray(link.com) for link in links]))
     velocity = np.stack([frame.velocity for frame in frames], axis=-2)
-    velocity = velocity + np.cross(np.stack([frame.omega for frame in frames], axis=-2), offset)
+    velocity = velocity + quaternions.cross(np.stack([frame.omega for frame in frames], axis=-2), offset)
     turns, slides = moved_by & columns.rotates, moved_by & ~columns.rotates
     axis, axis_rate = columns.axis[..., None, :, :], columns.axis_rate[..., None, :, :]
     arm = (origin + offset)[..., :, None, :] - columns.point[..., None, :, :]
     arm_rate = velocity[..., :, None, :] - columns.point_velocity[..., None, :, :]
-    turning_rate = np.cross(axis_rate, arm) + np.cross(axis, arm_rate)
+    turning_rate = quaternions.cross(axis_rate, arm) + quaternions.cross(axis, arm_rate)
     return Motion(
         quaternion=quaternion,
         com=origin + offset,
-        partial_velocity=_where(turns, np.cross(axis, arm)) + _where(slides, axis),
+        partial_velocity=_where(turns, quaternions.cross(axis, arm)) + _where(slides, axis),
         partial_omega=_where(turns, axis),
         partial_velocity_rate=_where(turns, turning_rate) + _where(slides, axis_rate),
         partial_omega_rate=_where(turns, axis_rate),

@@ -1,6 +1,6 @@
 """One logged run beside what is true of it: what every check starts from."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -24,6 +24,9 @@ class Cell:
     scene: Scene
     trajectory: Trajectory
     provenance: Provenance
+    # Several checks, the rows of error against run time and the pictures ask for the same.
+    _distances: dict[Observable, Array] = field(default_factory=dict, init=False, repr=False)
+    _own: dict[Observable, float] = field(default_factory=dict, init=False, repr=False)
 
     @classmethod
     def of(cls, trajectory: Trajectory, scenes: dict[str, Scene]) -> "Cell":
@@ -41,7 +44,7 @@ class Cell:
         _whole(trajectory, scene)
         return cls(scene, trajectory, provenance)
 
-    @property
+    @cached_property
     def truth(self) -> Trajectory:
         """The exact motion at the trajectory's own times."""
         return _truth(self.scene, self.trajectory.t.tobytes())
@@ -57,7 +60,21 @@ class Cell:
 
     def distance(self, observable: Observable) -> Array:
         """Distance from the truth at each sample (n,), or (1,) for a rate."""
-        return observable.distance(self.scene, self.trajectory, self.truth)
+        if observable not in self._distances:
+            self._distances[observable] = observable.distance(self.scene, self.trajectory, self.truth)
+        return self._distances[observable]
+
+    def own_error(self, observable: Observable) -> float | None:
+        """Largest distance of the scheme's own exact motion from the truth; ``None`` if it is not known."""
+        if self.predicted is None:
+            return None
+        if observable not in self._own:
+            self._own[observable] = float(observable.distance(self.scene, self.predicted, self.truth).max())
+        return self._own[observable]
+
+    def scale(self, observable: Observable) -> float:
+        """The size against which round-off in ``observable`` is measured."""
+        return _scale(self.scene, observable, self.trajectory.t.tobytes())
 
     def error(self, observable: Observable) -> float:
         """Largest distance from the truth over the run."""
@@ -71,16 +88,14 @@ class Cell:
         and ten ε for reading a sample and for the truth itself. What grows evenly, as the place of
         a body that flies straight, is rounded to the same side step after step: half an ε each.
         """
-        scale, steps = observable.scale(self.scene, self.truth), self.provenance.steps
+        scale, steps = self.scale(observable), self.provenance.steps
         walk = 3 * np.sqrt(steps) * max(1.0, growth(self.scene))
         return float(EPSILON * scale * (10 + steps / 2 + walk))
 
     def floor(self, observable: Observable) -> float:
         """What rounding, and contacts that give way in this engine, may add up to in ``observable``."""
         share = self.softness
-        return self.round_off(observable) + (
-            share * observable.scale(self.scene, self.truth) if share else 0.0
-        )
+        return self.round_off(observable) + (share * self.scale(observable) if share else 0.0)
 
     @property
     def softness(self) -> float:
@@ -148,6 +163,11 @@ def _whole(trajectory: Trajectory, scene: Scene) -> None:
             f"trajectory of {scene.full_name}: got {len(t)} samples{last}, expected {len(times)}, "
             f"evenly up to {times[-1]:g} s"
         )
+
+
+@lru_cache(maxsize=1024)
+def _scale(scene: Scene, observable: Observable, times: bytes) -> float:
+    return observable.scale(scene, _truth(scene, times))
 
 
 @lru_cache(maxsize=64)

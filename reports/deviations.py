@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from fnmatch import fnmatchcase
+from functools import cache
 from importlib import resources
 from typing import Any
 
@@ -55,6 +56,7 @@ class Deviation:
         )
 
 
+@cache
 def recorded() -> tuple[Deviation, ...]:
     """The entries that ship with Poinsot; raises ``InputError`` for one that cannot be."""
     text = resources.files("poinsot.adapters").joinpath(FILE).read_text(encoding="utf-8")
@@ -77,7 +79,10 @@ def applied(
     but of a ladder that was run ``partly`` the rest may still deviate.
     """
     found = list(verdicts)
+    ladders = {ladder_of(verdict) for verdict in verdicts}
     for deviation in deviations:
+        if not any(deviation.speaks_of(*ladder) for ladder in ladders):
+            continue
         places = [place for place, verdict in enumerate(verdicts) if deviation.applies(verdict)]
         gone = all(
             verdicts[place].status is Status.PASS and ladder_of(verdicts[place]) not in partly

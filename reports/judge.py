@@ -1,7 +1,7 @@
 """The comparator: trajectories in, verdicts out, with no engine in sight."""
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 
 from ..scenarios.registry import scenes as all_scenes
 from ..scenarios.scene import Scene
@@ -25,7 +25,11 @@ def judge(
     unknown origin.
     """
     there = dict(all_scenes() if scenes is None else scenes)
-    cells = [Cell.of(trajectory, there) for trajectory in trajectories]
+    return judge_cells([Cell.of(trajectory, there) for trajectory in trajectories], known)
+
+
+def judge_cells(cells: Sequence[Cell], known: Iterable[Deviation] | None = None) -> list[Verdict]:
+    """As ``judge``, of trajectories beside what is true of them."""
     broken = [verdict for cell in cells for verdict in _finite(cell)]
     sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
     checks = (truth.check, setup.check, setup.determinism, acceleration.check, stability.check)

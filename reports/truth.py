@@ -22,7 +22,7 @@ def without_constant(cell: Cell) -> list[str]:
 def own_error(cell: Cell, observable: Observable) -> float | None:
     """How far the scheme itself is from the truth at this step; ``None`` where nothing is known of it."""
     if cell.predicted is not None:
-        return float(observable.distance(cell.scene, cell.predicted, cell.truth).max())
+        return cell.own_error(observable)
     p = cell.provenance
     constant = cell.scene.error_constant(p.twin, observable)
     if constant is None or p.dt > max(cell.scene.ladder(p.order, p.twin)) * (1 + 1e-9):

@@ -78,7 +78,7 @@ def _apart(cell: Cell, other: Cell) -> tuple[float, str, float]:
 
 
 def _relative(cell: Cell, other: Cell, observable: Observable) -> Array:
-    scale = observable.scale(cell.scene, cell.truth) or 1.0
+    scale = cell.scale(observable) or 1.0
     return observable.distance(cell.scene, cell.trajectory, other.trajectory) / scale
 
 

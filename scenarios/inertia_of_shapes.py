@@ -8,7 +8,7 @@ leaves out its density, its place or its turn, or puts a box around it, even if 
 
 import numpy as np
 
-from ..reference import schemes
+from ..reference import quaternions, schemes
 from ..reference.checked import Array
 from . import free_body, hinged, observables, pictures
 from .body import Body, Joint, Quaternion, Vector, of_solids
@@ -44,7 +44,7 @@ def cone(sides: int, radius: float, height: float) -> Solid:
 def moment(body: Body) -> float:
     """Moment about the body's hinge [kg m²]."""
     arm, axis = np.array(body.center_of_mass), np.array(body.joints[0].axis)
-    across = np.cross(axis, arm)
+    across = quaternions.cross(axis, arm)
     return float(axis @ body.inertia_array @ axis + body.mass * (across @ across))
 
 

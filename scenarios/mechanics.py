@@ -52,7 +52,7 @@ def momentum(scene: Scene, motion: Trajectory) -> Array:
 
 def angular_momentum_world(scene: Scene, motion: Trajectory) -> Array:
     """Σ (r × m v + R I ω) about the world's origin, (n, 3) [kg m²/s], world axes."""
-    orbital = np.cross(motion.position, masses(scene)[:, None] * motion.velocity)
+    orbital = quaternions.cross(motion.position, masses(scene)[:, None] * motion.velocity)
     spin_body = spin_momentum_body(scene, motion)
     return np.asarray((orbital + quaternions.rotated(motion.quaternion, spin_body)).sum(axis=1))
 
@@ -64,6 +64,8 @@ def momentum_scale(scene: Scene, motion: Trajectory) -> float:
 
 def angular_momentum_scale(scene: Scene, motion: Trajectory) -> float:
     """Size of the angular momenta that may cancel in the sum [kg m²/s]."""
-    orbital = np.linalg.norm(np.cross(motion.position, masses(scene)[:, None] * motion.velocity), axis=2)
+    orbital = np.linalg.norm(
+        quaternions.cross(motion.position, masses(scene)[:, None] * motion.velocity), axis=2
+    )
     spin = np.linalg.norm(spin_momentum_body(scene, motion), axis=2)
     return float(np.max((orbital + spin).sum(axis=1)))
