@@ -9,7 +9,7 @@ from ..reference.errors import PoinsotError
 from ..scenarios.scene import Scene
 
 #: The settings of an engine in a scene that leaves it to its defaults.
-AS_IT_COMES = {"in scenes [defaults]": "damping, limits and contacts as the engine comes"}
+AS_IT_COMES = {"in scenes [defaults]": "damping, limits, motors and contacts as the engine comes"}
 
 
 class EngineError(PoinsotError):

@@ -61,6 +61,7 @@ class PyBullet:
         limits.refuse(scene, scheme, self._maximal)
         self._scene, self._untouched = scene, probes.without(scene)
         self._bare = probes.without(scene, "gravity", "stiffness", "damping")
+        self._slack = replace(self._bare, defaults=False)  # no motor keeps a force from moving its joint
         self._copy: _World | None = None
         self._sensors: Sensors | None = None
         q0, v0 = np.array(scene.q0), np.array(scene.v0)
@@ -137,7 +138,7 @@ class PyBullet:
 
     def _response(self, number: int, q: Array) -> Array:
         """Acceleration (nv,) from a unit of force in this hinge or slide at ``q``, if nothing else acts."""
-        return self._loaded(self._bare).change(q, np.zeros(len(self._scene.v0)), 1.0, 1, number)
+        return self._loaded(self._slack).change(q, np.zeros(len(self._scene.v0)), 1.0, 1, number)
 
 
 class _World:

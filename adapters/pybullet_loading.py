@@ -32,7 +32,7 @@ def load(p: Any, client: int, scene: Scene, tree: list[int], maximal: bool) -> i
 
 
 def quieted(p: Any, client: int, uid: int, scene: Scene) -> Iterator[tuple[str, Place]]:
-    """Take from a tree what PyBullet adds by itself, if the scene asks for it; its joints' places by name."""
+    """Take from a tree what PyBullet adds by itself, unless the scene leaves it; joints' places by name."""
     if not scene.defaults:
         p.changeDynamics(
             uid, -1, linearDamping=0, angularDamping=0, maxJointVelocity=math.inf,
@@ -41,8 +41,8 @@ def quieted(p: Any, client: int, uid: int, scene: Scene) -> Iterator[tuple[str, 
     still = {"targetPosition": IDENTITY, "physicsClientId": client}
     for link in range(p.getNumJoints(uid, client)):
         _, name, kind, *_ = p.getJointInfo(uid, link, client)
-        if kind == p.JOINT_SPHERICAL:
+        if kind == p.JOINT_SPHERICAL and not scene.defaults:
             p.setJointMotorControlMultiDof(uid, link, p.POSITION_CONTROL, force=[0, 0, 0], **still)
-        elif kind != p.JOINT_FIXED:
+        elif kind != p.JOINT_FIXED and not scene.defaults:
             p.setJointMotorControl2(uid, link, p.VELOCITY_CONTROL, force=0, physicsClientId=client)
         yield name.decode(), (uid, link)

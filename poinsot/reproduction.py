@@ -90,11 +90,12 @@ def _pybullet(scene: Scene, scheme: Scheme, dt: float, steps: int) -> Iterable[s
     yield "    for link in range(p.getNumJoints(body)):"
     yield "        _, name, kind, *_ = p.getJointInfo(body, link)"
     yield "        joints[name.decode()] = body, link"
-    yield "        if kind == p.JOINT_SPHERICAL:"
-    yield "            p.setJointMotorControlMultiDof(body, link, p.POSITION_CONTROL,"
-    yield "                                           targetPosition=[0, 0, 0, 1], force=[0, 0, 0])"
-    yield "        elif kind != p.JOINT_FIXED:"
-    yield "            p.setJointMotorControl2(body, link, p.VELOCITY_CONTROL, force=0)"
+    if not scene.defaults:
+        yield "        if kind == p.JOINT_SPHERICAL:"
+        yield "            p.setJointMotorControlMultiDof(body, link, p.POSITION_CONTROL,"
+        yield "                                           targetPosition=[0, 0, 0, 1], force=[0, 0, 0])"
+        yield "        elif kind != p.JOINT_FIXED:"
+        yield "            p.setJointMotorControl2(body, link, p.VELOCITY_CONTROL, force=0)"
     yield from _placed(scene)
     yield f"for _ in range({steps}):"
     yield "    p.stepSimulation()"

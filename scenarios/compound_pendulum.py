@@ -39,7 +39,7 @@ def _truth(scene: Scene, t: Array) -> Trajectory:
     ]
     angle, rate = (np.stack(part, axis=1) for part in zip(*swings, strict=True))
     motion = hinged.motion(scene.bodies, t, angle, rate)
-    return replace(motion, reaction=_borne(scene, motion))
+    return replace(motion, reaction=_borne(scene, motion)) if scene.reactions else motion
 
 
 def _borne(scene: Scene, motion: Trajectory) -> Array:
@@ -148,7 +148,24 @@ for row in ERRORS.values():
     # On one hinge nothing is gyroscopic and nothing damped: measured alike in all digits kept.
     row["implicit gyroscopic"] = row["implicitfast"] = row["discrete"] = row["semi-implicit Euler"]
 
+
+def _as_engines_come(scene: Scene) -> Scene:
+    """The scene without its ladders, and without reactions, of which a motor's own would be part."""
+    return replace(
+        scene,
+        variant="defaults",
+        summary="What a user gets who sets nothing: two bodies hung from hinges, engines as they come.",
+        defaults=True,
+        reactions=(),
+        observables=scene.observables[:-1],
+        ladders={},
+        errors={twin: row[:-1] for twin, row in scene.errors.items()},
+    )
+
+
+SMALL = _pendulum("small", "small swings", 0.1, -0.5)
 SCENES = (
-    _pendulum("small", "small swings", 0.1, -0.5),
+    SMALL,
     _pendulum("large", "to and fro between ±2.6 rad", 1.2, -8.0),
+    _as_engines_come(SMALL),
 )

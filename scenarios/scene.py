@@ -64,7 +64,7 @@ class Scene:
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
     ``soft`` says of engines, by name, how far their contacts give way: granted beside round-off.
     ``forces`` act at the centres of mass, beside gravity and what joints do; ``burning`` bodies lose mass.
-    ``defaults`` asks engines to leave what they add by themselves, and contacts as they come.
+    ``defaults`` asks engines to leave what they add by themselves, motors too, and contacts as they come.
     ``reactions`` names the bodies whose joints' reactions are measured, as ``Trajectory.reaction`` has them.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion

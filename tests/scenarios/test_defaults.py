@@ -8,6 +8,7 @@ from poinsot.adapters.registry import scheme_of
 from poinsot.adapters.simulate import simulate
 from poinsot.reports.judge import judge
 from poinsot.reports.verdict import Status
+from poinsot.scenarios import compound_pendulum
 from poinsot.scenarios.registry import scenes
 
 DEFAULTS = [name for name, scene in scenes().items() if scene.defaults]
@@ -44,6 +45,7 @@ def test_every_variant_of_that_name_and_no_other_asks_for_defaults():
         ("collisions[defaults]", "pybullet"),
         ("collisions[defaults]", "mujoco"),
         ("rolling[defaults]", "mujoco"),
+        ("compound_pendulum[defaults]", "pybullet"),
     ],
 )
 def test_what_an_engine_does_by_itself_is_known_and_tuned_it_does_so_no_longer(name, engine):
@@ -77,6 +79,22 @@ def test_pybullet_clips_a_spin_of_150_at_100_in_one_step_and_tuned_it_does_not()
         machine.build(replace(scene, q0=(0, 0, 0, 0, 0, 0, 1), v0=(0, 0, 0, 0, 0, 150)), scheme, scene.dt)
         machine.step(1)
         assert machine.state().omega[0] == pytest.approx([0, 0, spin], abs=1e-9)
+        machine.close()
+
+
+@pytest.mark.parametrize("dt", [1e-3, 1e-9])
+def test_pybullets_motor_takes_an_impulse_of_1_from_a_hinge_in_a_step_however_short(dt):
+    module = pytest.importorskip("poinsot.adapters.pybullet_")
+    scene = replace(scenes()["compound_pendulum[defaults]"], gravity=(0, 0, 0), q0=(0, 0), v0=(20, 5))
+    for engine, left in (
+        (module.PyBullet, (20 - 1 / compound_pendulum.MOMENT, 0)),
+        (tuned(module.PyBullet), (20, 5)),
+    ):
+        machine = engine()
+        machine.build(scene, scheme_of(module.PyBullet, None), dt)
+        machine.step(1)
+        # PyBullet's damping takes its own share of 20 rad/s.
+        assert machine.state().joint_velocity == pytest.approx(left, abs=20 * dt)
         machine.close()
 
 
