@@ -1,6 +1,7 @@
 """Known deviations: what an engine is recorded to do wrong, how far, in which versions, and why."""
 
 import tomllib
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from fnmatch import fnmatchcase
@@ -97,13 +98,15 @@ def unmatched(
     verdicts: Iterable[Verdict], deviations: Iterable[Deviation], partly: Collection[Ladder] = ()
 ) -> list[str]:
     """A sentence for every entry that speaks of no check that was made, nor of a ladder run ``partly``."""
-    made = list(verdicts)
+    made: dict[Ladder, list[Verdict]] = defaultdict(list)
+    for verdict in verdicts:
+        made[ladder_of(verdict)].append(verdict)
     return [
         f"known deviation of {d.engine} {d.scheme} in {d.scene}: {d.check} of {d.observable} is no check "
         "that was made; remove or mend its record"
         for d in deviations
-        if any(verdict.engine == d.engine for verdict in made)
-        and not any(d.applies(v) for v in made)
+        if any(engine == d.engine for _, engine, *_ in made)
+        and not any(d.speaks_of(*ladder) and any(map(d.applies, those)) for ladder, those in made.items())
         and not any(d.speaks_of(*ladder) for ladder in partly)
     ]
 
