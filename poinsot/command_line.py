@@ -1,6 +1,5 @@
 """The command line: ``poinsot run | stability | list | report | compare | explain | doctor``."""
 
-import gc
 import shlex
 import sys
 from collections.abc import Sequence
@@ -164,13 +163,9 @@ def list_(*, json: Annotated[bool, Parameter(negative="")] = False) -> int:
     json
         Print it as JSON.
     """
-    gc.disable()  # it would look through thousands of new objects, all of which stay
     from . import listing
 
-    print(listing.as_json() if json else listing.as_text())  # noqa: T201 (this is what the command is for)
-    gc.freeze()  # nor need it look through them when the process ends
-    gc.enable()
-    return 0
+    return listing.printed(as_json=json)
 
 
 @app.command

@@ -9,7 +9,9 @@ import sys
 import time
 
 import pytest
+from poinsot.reference.errors import InputError
 
+from poinsot import entry, listing
 from poinsot.command_line import main
 
 TOP = "free_symmetric_top[oblate]"
@@ -158,12 +160,32 @@ def test_list_tells_of_each_scene_what_it_is_where_from_and_what_it_leaves_out(c
 
 def test_list_imports_no_engine_and_nothing_heavy():
     code = (
-        "import sys; from poinsot.command_line import main; main(['list']);"
+        "import sys; from poinsot.entry import main; sys.argv = ['poinsot', 'list']; main();"
         "print(*sys.modules, file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    heavy = {"scipy", "mpmath", "plotly", "mcap", "numpy.random"}
+    heavy = {"scipy", "mpmath", "plotly", "mcap", "numpy.random", "cyclopts"}
     assert not ({"mujoco", "pybullet", "pinocchio"} | heavy) & set(done.stderr.split())
+
+
+@pytest.mark.parametrize("options", [(), ("--json",)])
+def test_a_list_is_the_same_with_and_without_the_parser(capsys, monkeypatch, options):
+    monkeypatch.setattr(sys, "argv", ["poinsot", "list", *options])
+    assert entry.main() == 0
+    short = capsys.readouterr()
+    assert main(["list", *options]) == 0
+    assert capsys.readouterr() == short
+    assert short.out
+
+
+def test_what_a_list_cannot_read_is_told_in_one_line(capsys, monkeypatch):
+    def unreadable():
+        raise InputError("engine file: got none")
+
+    monkeypatch.setattr(sys, "argv", ["poinsot", "list"])
+    monkeypatch.setattr(listing, "as_text", unreadable)
+    assert entry.main() == 2
+    assert capsys.readouterr().err == "poinsot: engine file: got none\n"
 
 
 def test_an_interrupt_ends_with_130_and_leaves_no_process(tmp_path):
