@@ -19,11 +19,9 @@ REQUIRED = tuple(name for name in (*Engine.__annotations__, *vars(Engine)) if no
 
 def names() -> list[str]:
     """Names of the engines that Poinsot has a file or an entry point for, installed or not."""
-    folder = importlib.import_module(__package__).__path__
-    own = [
-        module.name.removesuffix("_") for module in pkgutil.iter_modules(folder) if module.name.endswith("_")
-    ]
-    return list(dict.fromkeys([*sorted(own), *sorted(_points())]))
+    return list(
+        dict.fromkeys([*_own(tuple(importlib.import_module(__package__).__path__)), *sorted(_points())])
+    )
 
 
 def engines() -> dict[str, type[Engine] | str]:
@@ -69,6 +67,13 @@ def scheme_of(engine: type[Engine], name: str | None) -> Scheme:
     if name not in schemes:
         raise InputError(f"scheme of {engine.name}: got {name!r}; {nearest(name, schemes)}")
     return schemes[name]
+
+
+@cache
+def _own(folders: tuple[str, ...]) -> tuple[str, ...]:
+    """Engines with a file in this package; its folders are listed once, and not for every cell."""
+    modules = pkgutil.iter_modules(folders)
+    return tuple(sorted(module.name.removesuffix("_") for module in modules if module.name.endswith("_")))
 
 
 @cache

@@ -9,7 +9,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from .adapters.runner import Outcome
+from .adapters.runner import Outcome, Request
+from .estimate import Estimate
 
 FILE = "cost.json"
 SCHEMA = "poinsot.cost/1"
@@ -20,9 +21,13 @@ class Cost:
     """Filled while a run goes on; ``judging`` [s] is by scene and part."""
 
     workers: int
+    expected: Estimate | None = None
+    begun: float = field(default_factory=perf_counter)
     phases: dict[str, dict[str, float]] = field(default_factory=dict)
     outcomes: list[Outcome] = field(default_factory=list)
     judging: dict[str, dict[str, float]] = field(default_factory=dict)
+    #: What was timed as well.
+    timed: frozenset[Request] = frozenset()
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
@@ -38,28 +43,37 @@ class Cost:
 
     def write(self, folder: Path) -> None:
         """Write it beside the results, a line a cell."""
-        cells = ",\n  ".join(json.dumps(_cell(outcome), ensure_ascii=False) for outcome in self.outcomes)
+        cells = ",\n  ".join(json.dumps(self._cell(outcome), ensure_ascii=False) for outcome in self.outcomes)
         judging = ",\n  ".join(
             f"{json.dumps(scene)}: {json.dumps(_rounded(parts))}" for scene, parts in self.judging.items()
         )
         text = (
             f'{{\n "schema": "{SCHEMA}",\n "workers": {self.workers},\n'
+            f' "seconds": {perf_counter() - self.begun:.3f},\n'
+            f' "pulse": {json.dumps(self.expected and self.expected.pulse)},\n'
+            f' "crowding": {json.dumps(self.expected and round(self.expected.crowding, 2))},\n'
+            f' "expected": {json.dumps(self._expected())},\n'
             f' "phases": {json.dumps(self.phases)},\n'
             f' "cells": [\n  {cells}\n ],\n "judging": {{\n  {judging}\n }}\n}}\n'
         )
         (folder / FILE).write_text(text, encoding="utf-8")
 
+    def _expected(self) -> dict[str, float]:
+        """Seconds by phase that were expected by the clock."""
+        phases = self.expected.phases if self.expected else {}
+        return {name: round(sum(pieces), 3) for name, pieces in phases.items()}
 
-def _cell(outcome: Outcome) -> dict[str, Any]:
-    asked = outcome.request
-    return {
-        "scene": asked.scene,
-        "engine": asked.engine,
-        "scheme": asked.scheme,
-        "dt": asked.dt,
-        "repeats": asked.repeats,
-        "spent": _rounded(outcome.spent),
-    }
+    def _cell(self, outcome: Outcome) -> dict[str, Any]:
+        asked = outcome.request
+        return {
+            "scene": asked.scene,
+            "engine": asked.engine,
+            "scheme": asked.scheme,
+            "dt": asked.dt,
+            "repeats": asked.repeats,
+            "timed": asked in self.timed,
+            "spent": _rounded(outcome.spent),
+        }
 
 
 def _rounded(parts: Mapping[str, float]) -> dict[str, float]:

@@ -48,10 +48,15 @@ class Judged:
 
 
 def judged(
-    folder: Path, records: Sequence[CellRecord], seconds: Mapping[Key, Mapping[str, Any]], workers: int
+    folder: Path,
+    records: Sequence[CellRecord],
+    seconds: Mapping[Key, Mapping[str, Any]],
+    workers: int,
+    progress: Callable[[int, int], None] = lambda done, of: None,
 ) -> Judged:
     """Every log of ``records``, read from ``folder`` and judged; ``workers`` processes, or this one alone.
 
+    ``progress`` is told how many scenes of how many are done.
     Raises ``CorruptLog`` for a log that is not what was written, ``InputError`` for one of another scene.
     """
     by_scene: dict[str, list[CellRecord]] = defaultdict(list)
@@ -60,8 +65,10 @@ def judged(
             by_scene[record.scene].append(record)
     work = partial(_judged, folder, columns(results.cells(records)), dict(seconds))
     found = Judged()
-    for one in _mapped(work, list(by_scene.values()), min(workers, len(by_scene))):
+    scenes = list(by_scene.values())
+    for done, one in enumerate(_mapped(work, scenes, min(workers, len(scenes))), start=1):
         found.add(one)
+        progress(done, len(scenes))
     return found
 
 

@@ -4,7 +4,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from math import log2
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any, Protocol
@@ -15,8 +15,9 @@ from .adapters.environment import environment
 from .adapters.runner import Request
 from .adapters.timing import SPREAD, Timing
 from .cost import Cost
+from .estimate import Estimate
 from .judging import judged
-from .plan import Extent, Plan
+from .plan import Extent, Plan, in_turn, to_time
 from .reference.errors import InputError
 from .reports import deviations, results
 from .reports.results import CellRecord, Key
@@ -66,15 +67,19 @@ def run(
     time_limit: float,
     with_timing: bool,
     progress: Progress,
+    expected: Estimate | None = None,
 ) -> dict[str, Any]:
-    """Run every cell of the plan, then judge and report it; the results as written to ``folder``."""
-    started, clock, cost = datetime.now(UTC), perf_counter(), Cost(workers)
+    """Run every cell of the plan, then judge and report it; the results as written to ``folder``.
+
+    What was ``expected`` of its run time is kept beside what it took.
+    """
+    started, clock, cost = datetime.now(UTC), perf_counter(), Cost(workers, expected)
     with cost.phase("simulating"):
         records = _simulated(laid, folder, workers, time_limit, progress, cost)
     timings: dict[Key, Timing | str] = {}
     if with_timing:
         with cost.phase("timing"):
-            timings = _timed(laid, records, time_limit, progress)
+            timings = _timed(laid, records, time_limit, progress, cost)
     seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
     noted = [*laid.notes, *_quality([t for t in timings.values() if isinstance(t, Timing)])]
     untimed = [
@@ -95,7 +100,7 @@ def run(
         "workers": workers,
         "seconds": round(perf_counter() - clock, 1),
     }
-    found = report(folder, records, seconds, facts, [*noted, *untimed], workers, beyond, cost)
+    found = report(folder, records, seconds, facts, [*noted, *untimed], workers, beyond, cost, progress)
     cost.write(folder)
     return found
 
@@ -109,18 +114,20 @@ def report(
     workers: int,
     beyond: Sequence[Mapping[str, Any]] = (),
     cost: Cost | None = None,
+    progress: Progress = lambda phase, done, of: None,
 ) -> dict[str, Any]:
     """Judge the logs of ``folder`` and write every page; needs no engine.
 
     ``beyond`` are rows of error against run time that have no log, and are not judged. To ``cost`` is
     added what this takes.
+
     Raises ``CorruptLog`` for a log that is not what was written.
     """
     from .reports import pages  # jinja2 and plotly load only when there is something to show
 
     cost = cost or Cost(workers)
     with cost.phase("judging"):
-        came = judged(folder, records, seconds, workers)
+        came = judged(folder, records, seconds, workers, partial(progress, "judging"))
     cost.judging = came.spent
     stale = (
         deviations.unmatched(came.verdicts, deviations.recorded(), came.partly) if facts.get("whole") else []
@@ -179,9 +186,7 @@ def _simulated(
         done += 1
         progress("simulating", done, len(laid.requests))
 
-    # The longest first: no worker is left with one long cell while the other has nothing to do.
-    longest_first = sorted(laid.requests.values(), key=lambda request: request.dt)
-    outcomes = {o.request: o for o in runner.run(longest_first, folder / LOGS, workers, time_limit, count)}
+    outcomes = {o.request: o for o in runner.run(in_turn(laid), folder / LOGS, workers, time_limit, count)}
     cost.outcomes = [outcomes[request] for request in laid.requests.values()]
     return [_with_outcome(record, laid, outcomes, folder) for record in laid.records]
 
@@ -199,20 +204,12 @@ def _with_outcome(
 
 
 def _timed(
-    laid: Plan, records: Sequence[CellRecord], time_limit: float, progress: Progress
+    laid: Plan, records: Sequence[CellRecord], time_limit: float, progress: Progress, cost: Cost
 ) -> dict[Key, Timing | str]:
-    """Time cells that ran, of one variant of each scene: variants differ only in where they start.
-
-    Unless the run is a full one, one step of each scheme is timed, and the others take its time a step.
-    """
-    first: dict[str, str] = {}
-    for record in records:
-        first.setdefault(all_scenes()[record.scene].name, record.scene)
-    sound = [record for record in records if record.log and record.scene in first.values()]
-    every = laid.extent in (Extent.WHOLE, Extent.FULL)
-    chosen = sound if every else [record for record in sound if _own_step(record, sound)]
-    requests = {laid.requests[record.key]: record.key for record in chosen}
-    done = 0
+    """Time cells that ran, as ``to_time`` chooses; other steps of their schemes take their time a step."""
+    sound = [record for record in records if record.log]
+    requests = {laid.requests[record.key]: record.key for record in to_time(laid, sound)}
+    cost.timed, done = frozenset(requests), 0
 
     def count(request: Request) -> None:
         nonlocal done
@@ -249,13 +246,6 @@ def _quality(timings: Sequence[Timing]) -> list[str]:
     if runner.cores() == 1:
         said.append("Timing: there is one core, which whatever else runs here shares.")
     return said
-
-
-def _own_step(record: CellRecord, records: Sequence[CellRecord]) -> bool:
-    """Whether this is the cell of its scheme whose step is nearest to the scene's own."""
-    dt = all_scenes()[record.scene].dt
-    ladder = [other.dt for other in records if other.key[:3] == record.key[:3]]
-    return record.dt == min(ladder, key=lambda step: abs(log2(step / dt)))
 
 
 def _record_of(path: Path) -> CellRecord:

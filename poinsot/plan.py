@@ -1,9 +1,10 @@
 """Which cells a run consists of, and which it must leave out, with the reason."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from math import log
+from math import log2
 
 from .adapters import registry
 from .adapters.engine import Engine, Scheme, settings_in
@@ -84,6 +85,32 @@ def plan(
     return laid
 
 
+def in_turn(laid: Plan) -> list[Request]:
+    """What is to be run, the finest steps first: no worker is left alone with a long cell at the end."""
+    return sorted(laid.requests.values(), key=lambda request: request.dt)
+
+
+def to_time(laid: Plan, records: Sequence[CellRecord]) -> list[CellRecord]:
+    """Which of ``records`` to time: those of one variant of each scene, as others only start elsewhere.
+
+    Unless the run is a full one, one step of each scheme is timed, and the others take its time a step.
+    """
+    first: dict[str, str] = {}
+    for record in laid.records:
+        first.setdefault(all_scenes()[record.scene].name, record.scene)
+    sound = [r for r in records if r.key in laid.requests and r.scene in first.values()]
+    ladders = defaultdict[tuple[str, str, str], list[float]](list)
+    for record in sound:
+        ladders[record.key[:3]].append(record.dt)
+    every = laid.extent in (Extent.WHOLE, Extent.FULL)
+    return [r for r in sound if every or r.dt == _own_step(r.scene, ladders[r.key[:3]])]
+
+
+def _own_step(scene: str, steps: Sequence[float]) -> float:
+    """Which of ``steps`` [s] is nearest to the scene's own."""
+    return min(steps, key=lambda step: abs(log2(step / all_scenes()[scene].dt)))
+
+
 def _engines(specs: Sequence[str]) -> dict[str, type[Engine] | str]:
     """Each engine asked for, or all there are; one that was named must be installed."""
     if not specs:
@@ -120,7 +147,7 @@ def _add(
         )
         return
     taken = list(_steps(scene, steps))
-    own = min((dt for _, dt in taken), key=lambda dt: abs(log(dt / scene.dt)))
+    own = _own_step(scene.full_name, [dt for _, dt in taken])
     for asked, dt in taken:
         if dt != asked:
             laid.notes.append(
