@@ -12,7 +12,7 @@ from .engine import Engine, Scheme
 #: Repeats of one cell.
 REPEATS = 10
 #: How long [s] one repeat steps: long against the clock's grain, short enough to repeat ten times.
-#: A cell that takes longer as a whole is timed over its first steps, and the time scaled to all of them.
+#: A cell that takes longer as a whole is timed over a part of its steps, and the time scaled to all of them.
 SPAN = 0.005
 #: A cell whose middle repeat takes longer than its fastest by this part is timed once more, or marked.
 SPREAD = 0.2
@@ -26,7 +26,7 @@ WARM_UP = 50
 
 @dataclass(frozen=True)
 class Timing:
-    """Wall time [s] of all ``steps`` of one cell, over its repeats, taken on the first ``timed`` of them.
+    """Wall time [s] of all ``steps`` of one cell, over its repeats, each taken on ``timed`` of them.
 
     ``beat`` [s] is what a fixed piece of Python's own work took beside it: where it differs from one
     cell to another, so did the machine. ``pinned`` tells whether the process could be kept on one core.
@@ -73,21 +73,30 @@ class Timing:
 
 
 def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timing:
-    """Time the steps of a cell, from its start each time, without looking at or logging a sample.
+    """Time the steps of a cell, without looking at or logging a sample.
 
-    Pinned to one core where the system allows it, garbage collection off.
+    Pinned to one core where the system allows it, garbage collection off. Repeats go on where the one
+    before ended, and from the start again at the end of the run; each from the start where bodies may
+    touch, as steps with contact and without take different times.
     """
-    pinned = pin()
+    pinned, dt = pin(), scene.whole_step(dt)
     steps = scene.samples * scene.steps_per_sample(dt)
     machine = engine()
     try:
         warm_up = min(steps, WARM_UP)
-        each = _once(machine, scene, scheme, dt, warm_up) / warm_up
+        machine.build(scene, scheme, dt)
+        each = _stepping(machine, warm_up) / warm_up
         stepped = min(steps, max(warm_up, round(SPAN / each)))
         whole = steps / stepped
 
         def repeated() -> Timing:
-            seconds = [_once(machine, scene, scheme, dt, stepped) * whole for _ in range(REPEATS)]
+            seconds, taken = list[float](), steps
+            for _ in range(REPEATS):
+                if taken + stepped > steps or scene.contacts:
+                    machine.build(scene, scheme, dt)
+                    taken = 0
+                seconds.append(_stepping(machine, stepped) * whole)
+                taken += stepped
             return Timing(steps, stepped, tuple(seconds), beat(), pinned, empty_call(machine))
 
         first = repeated()
@@ -132,8 +141,8 @@ def pin() -> bool:
     return True
 
 
-def _once(machine: Engine, scene: Scene, scheme: Scheme, dt: float, steps: int) -> float:
-    machine.build(scene, scheme, scene.whole_step(dt))
+def _stepping(machine: Engine, steps: int) -> float:
+    """Time [s] of so many steps, from where the engine is."""
     enabled = gc.isenabled()
     gc.disable()
     try:

@@ -157,10 +157,31 @@ class Counted(Sleeper):
         self.asked.append("close")
 
 
-def test_every_repeat_starts_anew_and_the_engine_is_closed():
+def test_a_repeat_of_the_whole_starts_anew_and_the_engine_is_closed():
     timing.timed(scenes()["free_symmetric_top[oblate]"], Counted, SCHEME, 1.001e-2)
     build = ("build", 1e-2)
     assert Sleeper.asked == [build, timing.WARM_UP] + [build, 1000] * timing.REPEATS + ["close"]
+
+
+@pytest.mark.parametrize(
+    ("name", "dt", "starts"), [("free_symmetric_top[oblate]", 1e-3, 4), ("rolling[hoop]", 1e-4, 10)]
+)
+def test_repeats_of_a_part_go_on_but_where_bodies_touch(monkeypatch, name, dt, starts):
+    scene = scenes()[name]
+    steps = scene.samples * scene.steps_per_sample(dt)
+    # A part of 3 in 10, told apart from the clock: three of them fill a run.
+    monkeypatch.setattr(timing, "_stepping", lambda machine, n: machine.step(n) or n * EACH)
+    monkeypatch.setattr(timing, "SPAN", 0.3 * steps * EACH)
+    found = timing.timed(scene, Counted, SCHEME, dt)
+    part = round(0.3 * steps)
+    assert found.timed == part
+    asked = [entry for entry in Sleeper.asked if entry != "close"]
+    assert asked.count(part) == timing.REPEATS
+    assert sum(isinstance(entry, tuple) for entry in asked) == 1 + starts
+    since = 0
+    for entry in asked[2:]:
+        since = 0 if isinstance(entry, tuple) else since + entry
+        assert since <= steps
 
 
 class Breaking(Counted):
