@@ -1,6 +1,7 @@
 """A known deviation seen once more, and how its engine's maintainers can see it without Poinsot."""
 
 from collections.abc import Iterator
+from itertools import groupby
 
 from . import reproduction
 from .adapters import registry
@@ -16,11 +17,11 @@ from .scenarios.trajectory import Trajectory
 
 
 def listed() -> str:
-    """Every known deviation with its number, in words."""
-    lines = [
-        f"{number}. {_title(entry)}\n   {' '.join(entry.reason.split())}"
-        for number, entry in enumerate(recorded(), start=1)
-    ]
+    """Every known deviation with its number, in words; a reason is said once for all that it is behind."""
+    lines: list[str] = []
+    for (place, reason), found in groupby(enumerate(recorded(), start=1), lambda each: _said(each[1])):
+        checks = [f"{number}. {entry.check} of {entry.observable}" for number, entry in found]
+        lines += [f"{place}: {reason}", f"   {'; '.join(checks)}"]
     return "\n".join(lines) or "no known deviations"
 
 
@@ -43,7 +44,7 @@ def explained(number: int) -> str:
         [
             f"{number}. {_title(entry)}",
             "",
-            f"Recorded: {' '.join(entry.reason.split())}.",
+            f"Recorded: {_said(entry)[1]}.",
             f"Granted: up to {entry.bound:g}, of {entry.engine} {entry.versions}.",
             _measured(worst, scene, engine, scheme, dt),
             "",
@@ -54,8 +55,13 @@ def explained(number: int) -> str:
     )
 
 
+def _said(entry: Deviation) -> tuple[str, str]:
+    """Where an entry is seen, and its reason on one line."""
+    return f"{entry.engine} {entry.scheme} in {entry.scene}", " ".join(entry.reason.split())
+
+
 def _title(entry: Deviation) -> str:
-    return f"{entry.engine} {entry.scheme} in {entry.scene}: {entry.check} of {entry.observable}"
+    return f"{_said(entry)[0]}: {entry.check} of {entry.observable}"
 
 
 def _cell(entry: Deviation, engine: type[Engine]) -> tuple[Scene, Scheme, float]:

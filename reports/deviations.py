@@ -21,7 +21,7 @@ KNOWN = "; known: "
 
 @dataclass(frozen=True)
 class Deviation:
-    """One entry of ``adapters/known_deviations.toml``.
+    """One bound of an entry of ``adapters/known_deviations.toml``.
 
     ``scene``, ``scheme`` and ``observable`` may hold wildcards, ``[`` and ``]`` standing for
     themselves; ``versions`` is a range as in a requirement (">=3.2,<4"). It speaks of steps up to
@@ -43,9 +43,13 @@ class Deviation:
         return (
             verdict.check == self.check
             and verdict.dt <= self.dt
-            and _like(verdict.observable, self.observable)
+            and self.names(verdict.observable)
             and self.speaks_of(*ladder_of(verdict))
         )
+
+    def names(self, observable: str) -> bool:
+        """Whether this entry speaks of that observable."""
+        return _like(observable, self.observable)
 
     def speaks_of(self, scene: str, engine: str, version: str, scheme: str) -> bool:
         """Whether this entry speaks of that scheme in that scene."""
@@ -65,9 +69,15 @@ def recorded() -> tuple[Deviation, ...]:
 
 
 def parsed(text: str) -> tuple[Deviation, ...]:
-    """Entries from TOML; raises ``InputError`` that names the entry and what is wrong with it."""
+    """Entries from TOML; raises ``InputError`` that names the entry and what is wrong with it.
+
+    An entry names a ``check``, an ``observable`` and its ``bound``, or says of several which bound is whose:
+    ``bounds.truth.omega = 0.1``.
+    """
     entries = tomllib.loads(text).get("deviation", [])
-    return tuple(_entry(number, entry) for number, entry in enumerate(entries, start=1))
+    return tuple(
+        _entry(number, one) for number, entry in enumerate(entries, start=1) for one in _each(number, entry)
+    )
 
 
 def applied(
@@ -124,6 +134,26 @@ def _marked(verdict: Verdict, deviation: Deviation, gone: bool) -> Verdict:
 
 def _like(name: str, pattern: str) -> bool:
     return fnmatchcase(name, pattern.replace("[", "[[]"))
+
+
+def _each(number: int, entry: dict[str, Any]) -> list[dict[str, Any]]:
+    """An entry of several bounds as one for each."""
+    if "bounds" not in entry:
+        return [entry]
+    shared, bounds = {name: entry[name] for name in entry if name != "bounds"}, entry["bounds"]
+    single = {"check", "observable", "bound"} & entry.keys()
+    if single:
+        raise InputError(f"{FILE}, entry {number}: got bounds and {sorted(single)}, expected either")
+    mine = list(bounds.values()) if isinstance(bounds, dict) else []
+    numbers = [bound for each in mine for bound in (each.values() if isinstance(each, dict) else [None])]
+    if not numbers or not all(isinstance(bound, int | float) for bound in numbers):
+        example = "bounds.truth.omega = 0.1"
+        raise InputError(f"{FILE}, entry {number}: got bounds {bounds}, expected as in {example}")
+    return [
+        {**shared, "check": check, "observable": observable, "bound": bound}
+        for check, each in bounds.items()
+        for observable, bound in each.items()
+    ]
 
 
 def _entry(number: int, entry: dict[str, Any]) -> Deviation:

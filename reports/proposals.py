@@ -84,6 +84,7 @@ def _loose(results: Mapping[str, Any], recorded: list[Deviation]) -> list[str]:
             for cell, verdict in _verdicts(results, "known")
             if deviation.speaks_of(cell["scene"], cell["engine"], cell["engine_version"], cell["scheme"])
             and (verdict["check"], cell["dt"] <= deviation.dt) == (deviation.check, True)
+            and deviation.names(verdict["observable"])
         ]
         if measured and max(measured) * SLACK < deviation.bound:
             lines.append(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from poinsot.adapters import registry
 from poinsot.adapters.simulate import simulate
+from poinsot.reports.deviations import recorded
 from poinsot.scenarios.registry import scenes
 
 from poinsot import reproduction
@@ -74,7 +75,11 @@ def test_a_scene_that_takes_many_calls_to_set_up_is_shown_with_poinsot(capfd):
 
 def test_every_known_deviation_is_listed_and_the_first_is_explained(capsys):
     assert main(["explain"]) == 0
-    assert re.match(r"1\. pybullet maximal coordinates in ", capsys.readouterr().out)
+    listed = capsys.readouterr().out
+    assert re.match(r"pybullet maximal coordinates in .*\n   1\. twin of state\n", listed)
+    numbers = [int(number) for number in re.findall(r"(\d+)\. \w+ of ", listed)]
+    assert numbers == list(range(1, len(recorded()) + 1))
+    assert listed.count("sensor adds ω×Iω") == 2, "a reason is said once a scene"
     assert main(["explain", "1"]) == 0
     text = capsys.readouterr().out
     assert re.search(r"^Granted: up to .* of pybullet ==3\.2\.7\.$", text, re.MULTILINE)

@@ -130,6 +130,44 @@ def test_an_entry_is_read_as_it_is_written():
     assert deviations.parsed("") == ()
 
 
+SEVERAL = """
+bounds.truth."omega*" = 1e-3
+bounds.truth.position = 0.2
+bounds.order.omega = 1
+"""
+
+
+def test_an_entry_of_several_bounds_is_one_for_each():
+    text = "".join(line for line in TEXT.splitlines(True) if line.split(" ")[0] not in SINGLE)
+    assert deviations.parsed(text + SEVERAL + TEXT) == (
+        replace(ENTRY, observable="omega*"),
+        replace(ENTRY, observable="position", bound=0.2),
+        replace(ENTRY, check="order", bound=1),
+        ENTRY,
+    )
+
+
+SINGLE = ("check", "observable", "bound")
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [
+        (SEVERAL + 'check = "truth"', "got bounds and ['check'], expected either"),
+        ("bounds = 0.1", "got bounds 0.1, expected as in bounds.truth.omega = 0.1"),
+        ("bounds.truth = 0.1", "got bounds {'truth': 0.1}, expected as in"),
+        ("bounds.truth = {}", "got bounds {'truth': {}}, expected as in"),
+        ('bounds.truth.omega = "1e-3"', "expected as in bounds.truth.omega = 0.1"),
+        ("bounds.energy.drift = 1", "got check 'energy', expected one of truth, order, twin"),
+    ],
+)
+def test_bounds_that_cannot_be_are_refused_by_number_and_fault(more, says):
+    text = "".join(line for line in TEXT.splitlines(True) if line.split(" ")[0] not in SINGLE)
+    with pytest.raises(InputError, match=re.escape(says)) as caught:
+        deviations.parsed(text + more)
+    assert str(caught.value).startswith("known_deviations.toml, entry 1: ")
+
+
 @pytest.mark.parametrize(
     ("line", "instead", "says"),
     [

@@ -54,5 +54,12 @@ def test_a_bound_far_above_what_was_measured_may_come_down(measured, told):
     assert told or not text
 
 
+def test_a_large_deviation_of_something_else_hides_no_loose_bound():
+    found = results("known", 2.4e-4)
+    other = {**found["cells"][0]["verdicts"][0], "observable": "position", "measured": 9e-4}
+    found["cells"][0]["verdicts"].append(other)
+    assert "may come down to 4.8e-04" in proposed(found, [ENTRY])
+
+
 def test_a_failure_without_a_number_and_a_pass_propose_nothing():
     assert proposed(results("fail", None), []) == proposed(results("pass"), []) == ""
