@@ -2,8 +2,8 @@
 
 10 000 samples of 21 numbers and their time: one body (position, quaternion, velocity, angular velocity)
 and four hinges. Poinsot's figures are of the whole of ``write`` and ``read``: views, attachments,
-checksums, compression, fsync. Beside them, in the same run, one message at a time through the mcap
-and protobuf libraries, without views, attachments and fsync: with protobuf's objects, and with the bytes
+checksums, compression. Beside them, in the same run, one message at a time through the mcap
+and protobuf libraries, without views and attachments: with protobuf's objects, and with the bytes
 ready made, which leaves mcap's own cost.
 """
 

@@ -169,7 +169,9 @@ def test_a_folder_that_is_not_there_is_one_clear_line(tmp_path, make_cell):
         log.write(tmp_path / "nowhere" / "a.mcap", *make_cell(), {})
 
 
-@pytest.mark.parametrize("failing", ["os.fsync", "pathlib.Path.replace"])
+@pytest.mark.parametrize(
+    "failing", ["poinsot.adapters.log_container.Container.finish", "pathlib.Path.replace"]
+)
 def test_a_failure_in_the_middle_keeps_the_old_log_and_nothing_else(
     tmp_path, make_cell, monkeypatch, failing
 ):
