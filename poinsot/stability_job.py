@@ -17,7 +17,7 @@ from .adapters.stable_step import StableStep, stable_step
 from .main_job import Progress
 from .reference.errors import InputError
 from .reference.spelling import nearest
-from .reports import deviations, stability, stability_results
+from .reports import deviations, stability, stability_results, stored
 from .reports.outcomes import Found, Outcome, judged
 from .reports.stability_results import Sweep
 from .reports.verdict import Verdict
@@ -89,7 +89,7 @@ def run(
     verdicts = deviations.applied(every, deviations.recorded())
     facts = environment() | {"command": command}
     results = stability_results.results(laid.families, laid.sweeps, verdicts, facts, laid.notes)
-    stability_results.write(folder / "stability.json", results)
+    stored.write(folder / "stability.json", results)
     stability_page.render(results, folder / "stability.html")
     return results
 

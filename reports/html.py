@@ -7,18 +7,19 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from jinja2 import Environment, FileSystemLoader
+from jinja2 import Environment
 from markupsafe import Markup, escape
 from plotly.offline.offline import get_plotlyjs
 
 from ..scenarios.features import FEATURES
+from . import templating
 from .cheapest import cheapest
 from .common_causes import spoken
 from .digest import Column, Digest, Group, Record
 from .findings import findings
 from .plots import Figure, cost_figure
 from .verdict import Status
-from .wording import GLYPHS, NOT_RUN, PARTIAL, count, number, printable, steps
+from .wording import NOT_RUN, PARTIAL, count, number, printable, steps
 
 
 def render(results: Record, pictures: Mapping[str, Sequence[Figure]], out: Path) -> None:
@@ -56,14 +57,7 @@ def _library() -> Markup:
 
 @cache
 def _environment() -> Environment:
-    """Everything printed is escaped, and made printable first."""
-    environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        finalize=lambda value: printable(value) if type(value) is str else value,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = templating.environment()
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     environment.filters |= {
         "number": number,
@@ -77,7 +71,6 @@ def _environment() -> Environment:
     }
     environment.globals |= {
         "Status": Status,
-        "GLYPHS": GLYPHS,
         "NOT_RUN": NOT_RUN,
         "PARTIAL": PARTIAL,
         "OPEN": (Status.ERROR, Status.FAIL, Status.FIXED),

@@ -1,6 +1,5 @@
 """The outcome of a run as plain data: what ``results.json`` holds and every page is made of."""
 
-import json
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
@@ -10,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ..reference.errors import PoinsotError
 from ..scenarios.observables import Observable
 from ..scenarios.scene import Scene
+from . import stored
 from .cell import Cell
 from .cheapest import cheapest
 from .common_causes import Localisation, grouped
@@ -34,10 +33,6 @@ GRAVITY = (
 TIMES = ("seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread", "us_per_call")
 
 Key = tuple[str, str, str, float]
-
-
-class ResultsError(PoinsotError):
-    """A results.json that cannot be what it should be."""
 
 
 @dataclass(frozen=True)
@@ -119,21 +114,9 @@ def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any
     return rows
 
 
-def write(path: Path, found: Mapping[str, Any]) -> None:
-    """Write results as JSON, one line a value, so that two runs can be compared by eye."""
-    path.write_text(json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
-
-
 def read(path: Path) -> dict[str, Any]:
-    """Read results; raises ``ResultsError`` if the file is not results of a schema known here."""
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ResultsError(f"{path.name}: {error}; expected the results of a run") from error
-    schema = found.get("schema") if isinstance(found, dict) else None
-    if schema != SCHEMA:
-        raise ResultsError(f"{path.name}: got schema {schema!r}, expected {SCHEMA!r}")
-    return dict(found)
+    """Read results; raises ``ResultsError`` if the file is not a run's, of the schema known here."""
+    return stored.read(path, SCHEMA, "a run")
 
 
 def records_of(found: Mapping[str, Any]) -> list[CellRecord]:

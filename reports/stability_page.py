@@ -8,14 +8,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 
+from . import templating
 from .outcomes import Outcome
 from .stability import TOLERANCE, between, deviation
 from .stability_map import picture, sign
 from .verdict import Status
-from .wording import GLYPHS, number, printable
+from .wording import number
 
 #: What engines do by default, which Poinsot's adapters switch off; tests/reports/test_outcomes.py sees it.
 DEFAULTS = (
@@ -64,15 +64,7 @@ def render(results: Mapping[str, Any], out: Path) -> None:
 
 @cache
 def _template() -> Any:
-    environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        finalize=lambda value: printable(value) if type(value) is str else value,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.globals["GLYPHS"] = GLYPHS
-    return environment.get_template("stability.html.j2")
+    return templating.environment().get_template("stability.html.j2")
 
 
 def who(found: Mapping[str, Any]) -> str:

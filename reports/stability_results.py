@@ -1,6 +1,5 @@
 """The outcome of a sweep as plain data: what ``stability.json`` holds and its page is made of."""
 
-import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
@@ -10,8 +9,8 @@ from typing import Any
 from ..adapters.runner import Failure
 from ..adapters.stable_step import StableStep
 from ..scenarios.families import Family
+from . import stored
 from .outcomes import Found, Outcome
-from .results import ResultsError
 from .verdict import Status, Verdict
 
 SCHEMA = "poinsot.stability/1"
@@ -58,21 +57,9 @@ def results(
     }
 
 
-def write(path: Path, found: Mapping[str, Any]) -> None:
-    """Write results as JSON, stable from run to run."""
-    path.write_text(json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
-
-
 def read(path: Path) -> dict[str, Any]:
-    """Read results; raises ``ResultsError`` if the file is not a sweep's of a schema known here."""
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ResultsError(f"{path.name}: {error}; expected the results of a sweep") from error
-    schema = found.get("schema") if isinstance(found, dict) else None
-    if schema != SCHEMA:
-        raise ResultsError(f"{path.name}: got schema {schema!r}, expected {SCHEMA!r}")
-    return dict(found)
+    """Read results; raises ``ResultsError`` if the file is not a sweep's, of the schema known here."""
+    return stored.read(path, SCHEMA, "a sweep")
 
 
 def exit_code(found: Mapping[str, Any]) -> int:

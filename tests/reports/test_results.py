@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from poinsot.adapters.timing import Timing
-from poinsot.reports import results
+from poinsot.reports import results, stored
 from poinsot.reports.cell import Cell
 from poinsot.reports.judge import judge
-from poinsot.reports.results import CellRecord, ResultsError
+from poinsot.reports.results import CellRecord
+from poinsot.reports.stored import ResultsError
 from poinsot.reports.verdict import Status
 from poinsot.scenarios.registry import scenes
 
@@ -95,12 +96,12 @@ def test_a_timing_belongs_to_its_own_step(ahead):
 
 def test_a_file_gives_back_what_was_written(found, tmp_path):
     path = tmp_path / "results.json"
-    results.write(path, found)
+    stored.write(path, found)
     assert results.read(path) == json.loads(json.dumps(found))
     assert results.records_of(results.read(path)) == [RAN, BROKE, ABSENT]
     assert results.timings_of(results.read(path)) == {RAN.key: TIMING}
     before = path.read_bytes()
-    results.write(path, results.read(path))
+    stored.write(path, results.read(path))
     assert path.read_bytes() == before
 
 
@@ -122,7 +123,7 @@ def test_numbers_that_json_does_not_know_are_left_to_the_sentence(ahead, tmp_pat
     assert [row["error"] for row in rows if row["observable"] == "omega"] == [None]
     found = results.results([RAN], judge([run], known=()), rows, scenes(), {}, [])
     assert {verdict["measured"] for verdict in found["cells"][0]["verdicts"]} == {None}
-    results.write(tmp_path / "results.json", found)
+    stored.write(tmp_path / "results.json", found)
 
 
 def test_a_cell_is_as_good_as_its_worst_verdict():

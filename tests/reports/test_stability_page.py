@@ -8,10 +8,10 @@ import xml.etree.ElementTree as ET
 import pytest
 from poinsot.adapters.runner import Failure
 from poinsot.adapters.stable_step import StableStep
-from poinsot.reports import stability, stability_map, stability_page, stability_results
+from poinsot.reports import stability, stability_map, stability_page, stability_results, stored
 from poinsot.reports.outcomes import Found, Outcome
-from poinsot.reports.results import ResultsError
 from poinsot.reports.stability_results import Sweep
+from poinsot.reports.stored import ResultsError
 from poinsot.reports.verdict import Status
 from poinsot.scenarios.families import select
 
@@ -66,7 +66,7 @@ def test_a_crash_ends_with_three():
 
 def test_results_come_back_from_the_file(tmp_path):
     found = made(GOOD, StableStep(1e3, math.inf))
-    stability_results.write(tmp_path / "stability.json", found)
+    stored.write(tmp_path / "stability.json", found)
     back = stability_results.read(tmp_path / "stability.json")
     assert back == json.loads(json.dumps(found))
     assert back["schema"] == "poinsot.stability/1"

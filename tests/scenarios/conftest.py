@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from poinsot.adapters.engine import Engine, Setup
 from poinsot.adapters.simulate import simulate
+from poinsot.reference.checked import Array
 from poinsot.reports import setup
 from poinsot.reports.judge import judge
 from poinsot.reports.verdict import Status
+from poinsot.scenarios.body import Body
 from poinsot.scenarios.scene import Scene
 
 _FIELDS = ("position", "quaternion", "velocity", "omega", "joint_position", "joint_velocity")
@@ -47,6 +49,24 @@ def failed() -> Callable[..., set[tuple[str, str]]]:
         return {(v.check, v.observable) for v in verdicts if v.status is Status.FAIL}
 
     return find
+
+
+@pytest.fixture
+def as_if() -> Callable[..., type[Engine]]:
+    """MuJoCo with what ``change(body)`` (3, 3) says in place of the inertia of every body."""
+    mujoco_ = pytest.importorskip("poinsot.adapters.mujoco_")
+
+    def make(change: Callable[[Body], Array]) -> type[Engine]:
+        class Wrong(mujoco_.MuJoCo):
+            def build(self, scene, scheme, dt):
+                tensors = (tuple(map(tuple, change(body).tolist())) for body in scene.bodies)
+                pairs = zip(scene.bodies, tensors, strict=True)
+                bodies = tuple(replace(body, inertia=tensor) for body, tensor in pairs)
+                super().build(replace(scene, bodies=bodies), scheme, dt)
+
+        return Wrong
+
+    return make
 
 
 @pytest.fixture
