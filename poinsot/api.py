@@ -10,6 +10,7 @@ from .adapters.simulate import unsupported
 from .adapters.timing import timed
 from .precision import affordable, rows
 from .reports import judge as _judge
+from .reports.results import pace
 from .reports.verdict import Verdict
 from .scenarios.registry import scenes as _scenes
 from .scenarios.registry import select
@@ -73,8 +74,9 @@ def work_precision(
             if not unsupported(scene, engine, scheme):
                 each = timed(scene, engine, scheme, scene.dt)
                 for dt in affordable(scene, scheme, each.least / each.steps):
-                    timing = timed(scene, engine, scheme, dt).as_row()
-                    found += [row | timing for row in rows(scene, engine, scheme, dt)]
+                    timing = timed(scene, engine, scheme, dt)
+                    times = timing.as_row() | pace(timing.steps, dt, timing.least)
+                    found += [row | times for row in rows(scene, engine, scheme, dt)]
     return found
 
 

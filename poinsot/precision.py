@@ -10,7 +10,7 @@ from .adapters.simulate import simulate
 from .adapters.timing import Timing
 from .plan import Plan
 from .reports.cell import Cell
-from .reports.results import Key, precision_rows
+from .reports.results import Key, pace, precision_rows
 from .scenarios.registry import scenes
 from .scenarios.scene import Scene
 
@@ -93,7 +93,9 @@ def _wanted(
         for dt in taken:
             if not any(abs(dt / other - 1) < 1e-9 for other in there):
                 cell = runner.Request(scene.full_name, request.engine, scheme.name, dt)
-                times[cell] = timing.of(scene.samples * scene.steps_per_sample(dt)).as_row()
+                steps = scene.samples * scene.steps_per_sample(dt)
+                its = timing.of(steps)
+                times[cell] = its.as_row() | pace(steps, dt, its.least)
     return times, [
         f"Error over run time, {scheme}: fewer than {RUNGS} steps where a run would take over {LONGEST:g} s: "
         f"{', '.join(names)}."

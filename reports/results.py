@@ -108,10 +108,19 @@ def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any
     for cell in cells:
         p = cell.provenance
         time = seconds.get((p.scene, p.engine, p.scheme, p.dt), untimed)
+        timed = dict(time) | pace(p.steps, p.dt, time["seconds_min"])
         for observable in cell.scene.observables:
             if observable.kind != "invariant":
-                rows.append(_row(cell, observable) | dict(time))  # noqa: PERF401 (two loops read better than one)
+                rows.append(_row(cell, observable) | timed)  # noqa: PERF401 (two loops read better than one)
     return rows
+
+
+def pace(steps: int, dt: float, seconds: float | None) -> dict[str, float | None]:
+    """Steps a second, and seconds of motion to a second of run time, of so many steps in ``seconds``."""
+    return {
+        "steps_per_second": steps / seconds if seconds else None,
+        "real_time": steps * dt / seconds if seconds else None,
+    }
 
 
 def read(path: Path) -> dict[str, Any]:

@@ -54,6 +54,13 @@ def test_the_names_are_those_that_scripts_rely_on(found):
     } <= set(row)  # fmt: skip
 
 
+def test_a_row_tells_how_fast_that_was(found):
+    row = found["work_precision"][0]
+    assert row["steps_per_second"] == pytest.approx(row["steps"] / row["seconds_min"])
+    assert row["steps_per_second"] == pytest.approx(1e6 / row["us_per_step"])
+    assert row["real_time"] == pytest.approx(row["steps_per_second"] * row["dt"])
+
+
 def test_memory_and_size_of_the_log_survive_a_second_report(found):
     weighed = {**found, "cells": [{**cell, "log_bytes": 5, "memory_bytes": 7} for cell in found["cells"]]}
     again = results.records_of(weighed)
