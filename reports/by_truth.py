@@ -13,7 +13,7 @@ from ..scenarios.scene import Scene
 from . import truth
 from .evidence import Evidence
 from .order import extrapolated
-from .suspects import share
+from .wording import share
 
 #: A change of a scene that leaves this part of what was to be explained explains it.
 ENOUGH = 0.02

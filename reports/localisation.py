@@ -22,9 +22,10 @@ from .common_causes import Localisation
 from .evidence import IMPLICIT, MANY, NOTHING, Evidence, inconsistency
 from .fitting import Explanation, Residual, fitted, fitted_together, size
 from .intervals import Intervals
+from .plain_mistakes import alternatives
 from .signs import plain, weaker
 from .supposed import Model
-from .suspects import alternatives, several, suspects
+from .suspects import several, suspects
 from .tellings import tellings
 from .verdict import Ladder, Status, Verdict, ladder_of
 from .wording import listed

@@ -93,3 +93,7 @@ class Model:
 
     def _more(self, q: Array, v: Array) -> Array | None:
         return None if self.added is None else self.added(q, v)
+
+
+#: A model with the number set to what it is in the scene is the scene's own.
+Change = Callable[[Model, float], Model]

@@ -2,17 +2,14 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from itertools import permutations, product
+from functools import partial
 
 import numpy as np
 
-from ..reference import equations_of_motion, quaternions
 from ..reference.checked import Array
-from ..reference.tree_kinematics import motion, summed
-from .supposed import Model
-
-#: A model with the number set to what it is in the scene is the scene's own.
-Change = Callable[[Model, float], Model]
+from .added_terms import added, bias, drag, forced, gyroscopic, linear_weight
+from .supposed import Change, Model
+from .wording import share
 
 
 @dataclass(frozen=True)
@@ -89,55 +86,6 @@ def _said(name: str, part: str, members: Sequence[Suspect]) -> Callable[[Sequenc
 
 def _vector(values: Array) -> str:
     return f"({', '.join(f'{value:.6g}' for value in values)})"
-
-
-def alternatives(model: Model) -> Iterator[tuple[str, Callable[[Model], Model]]]:
-    """Plain mistakes, with no number to fit: what to say, and what makes it of a model."""
-    for place, (body, link) in enumerate(zip(model.scene.bodies, model.links, strict=True)):
-        name, tensor, com = body.name, np.asarray(link.inertia), np.asarray(link.com)
-        for order in ((0, 2, 1), (2, 1, 0), (1, 0, 2), (1, 2, 0), (2, 0, 1)):
-            turned = tensor[np.ix_(order, order)]
-            if not np.allclose(turned, tensor, rtol=1e-12, atol=0):
-                yield f"inertia axes of body {name!r} are permuted", _with(place, inertia=turned)
-        if np.any(tensor - np.diag(np.diag(tensor))):
-            for moments in (np.linalg.eigvalsh(tensor), np.linalg.eigvalsh(tensor)[::-1]):
-                yield (
-                    f"rotation of the inertia of body {name!r} is lost",
-                    _with(place, inertia=np.diag(moments)),
-                )
-            for other in _turned_back(tensor):
-                back = f"rotation of the inertia of body {name!r} is the wrong way round"
-                yield back, _with(place, inertia=other)
-            lost = np.diag(np.diag(tensor))
-            yield f"products of inertia of body {name!r} are lost", _with(place, inertia=lost)
-            opposite = 2 * lost - tensor
-            yield f"products of inertia of body {name!r} have the wrong sign", _with(place, inertia=opposite)
-        if np.any(com):
-            moved = link.mass * (com @ com * np.eye(3) - np.outer(com, com))
-            about = f"inertia of body {name!r} is taken about its frame, not its centre of mass"
-            yield about, _with(place, inertia=tensor + moved)
-            twice = f"inertia of body {name!r} is shifted to its centre of mass twice"
-            yield twice, _with(place, inertia=tensor - moved)
-            yield f"centre of mass of body {name!r} is at its frame", _with(place, com=0 * com)
-
-
-def _turned_back(tensor: Array) -> Iterator[Array]:
-    """What a tensor becomes if its principal axes are turned the other way, whichever is called the first."""
-    moments, axes = np.linalg.eigh(tensor)
-    for order in permutations(range(3)):
-        for signs in product((1, -1), repeat=3):
-            R = axes[:, order] * signs
-            if np.linalg.det(R) > 0:
-                yield R.T @ np.diag(moments[list(order)]) @ R
-
-
-def _with(place: int, **parts: Array) -> Callable[[Model], Model]:
-    return lambda model: model.with_link(place, **parts)
-
-
-def share(x: float) -> str:
-    """A relative change in words: 0.1 % high."""
-    return f"{abs(100 * x):.3g} % {'high' if x > 0 else 'low'}"
 
 
 def _gravity(model: Model) -> Iterator[Suspect]:
@@ -238,9 +186,9 @@ def _together(model: Model) -> Iterator[Suspect]:
 
     if sum(bool(joint.stiffness) for joint in model.scene.joints) > 1:
         rest = "rest positions of the springs of all joints are off by"
-        yield Suspect(_added(slack), lambda x: f"{rest} {x:.3g}", "all rests")
+        yield Suspect(added(slack), lambda x: f"{rest} {x:.3g}", "all rests")
         yield Suspect(
-            _added(springs), lambda x: f"spring stiffness of all joints is {share(x)}", "all springs"
+            added(springs), lambda x: f"spring stiffness of all joints is {share(x)}", "all springs"
         )
     yield Suspect(masses, lambda x: f"masses of all bodies are {share(x)}", "all masses")
     yield Suspect(tensors, lambda x: f"inertias of all bodies are {share(x)}", "all inertias")
@@ -254,52 +202,52 @@ def _joints(model: Model) -> Iterator[Suspect]:
         k = joint.stiffness
         if k:
             yield Suspect(
-                _forced(v, lambda at, going, q=q, k=k: -k * at[..., q]),  # type: ignore[misc]
+                forced(v, lambda at, going, q=q, k=k: -k * at[..., q]),  # type: ignore[misc]
                 lambda x, name=name: f"spring stiffness of joint {name!r} is {share(x)}",  # type: ignore[misc]
             )
             yield Suspect(
-                _forced(v, lambda at, going, k=k: k + 0 * at[..., 0]),  # type: ignore[misc]
+                forced(v, lambda at, going, k=k: k + 0 * at[..., 0]),  # type: ignore[misc]
                 lambda x, name=name: f"rest position of the spring of joint {name!r} is off by {x:.3g}",  # type: ignore[misc]
             )
         if joint.damping:
             yield Suspect(
-                _forced(v, lambda at, going, v=v, c=joint.damping: -c * going[..., v]),  # type: ignore[misc]
+                forced(v, lambda at, going, v=v, c=joint.damping: -c * going[..., v]),  # type: ignore[misc]
                 lambda x, name=name: f"damping of joint {name!r} is {share(x)}",  # type: ignore[misc]
             )
         else:
             yield Suspect(
-                _forced(v, lambda at, going, v=v: -going[..., v]),  # type: ignore[misc]
+                forced(v, lambda at, going, v=v: -going[..., v]),  # type: ignore[misc]
                 lambda x, name=name, u=unit: (
                     f"joint {name!r} is damped by {x:.3g} {u} s, with none asked for"
                 ),  # type: ignore[misc]
             )
         yield Suspect(
-            _forced(v, lambda at, going, v=v: -np.sign(going[..., v])),  # type: ignore[misc]
+            forced(v, lambda at, going, v=v: -np.sign(going[..., v])),  # type: ignore[misc]
             lambda x, name=name, u=unit: f"joint {name!r} has a dry friction of {x:.3g} {u}",  # type: ignore[misc]
         )
         yield Suspect(
-            _forced(v, lambda at, going: 1 + 0 * at[..., 0]),
+            forced(v, lambda at, going: 1 + 0 * at[..., 0]),
             lambda x, name=name, u=unit: f"a steady {x:.3g} {u} acts on joint {name!r}, as of a motor",  # type: ignore[misc]
         )
         if np.any(model.gravity):
             yield Suspect(
-                _forced(v, _linear_weight(model, q, v)),
+                forced(v, linear_weight(model, q, v)),
                 lambda x, name=name: f"weight on joint {name!r} is linear in its angle, in place of the sine",  # type: ignore[misc]
             )
 
 
 def _terms(model: Model) -> Iterator[Suspect]:
     every = "gyroscopic and Coriolis terms"
-    yield Suspect(_added(_gyroscopic), lambda x: f"gyroscopic term {_times(1 + x)}", "turning")
-    yield Suspect(_added(_bias), lambda x: f"{every} {_times(1 + x, plural=True)}", "turning")
+    yield Suspect(added(gyroscopic), lambda x: f"gyroscopic term {_times(1 + x)}", "turning")
+    yield Suspect(added(bias), lambda x: f"{every} {_times(1 + x, plural=True)}", "turning")
     names = [joint.name for _, joint, _, at in model.scene.slices() for _ in range(at.stop - at.start)]
     for k, name in enumerate(names if len(names) <= 12 else []):
 
         def along(m: Model, q: Array, v: Array, k: int = k) -> Array:
-            return np.asarray(_bias(m, q, v) * np.eye(v.shape[-1])[k])
+            return np.asarray(bias(m, q, v) * np.eye(v.shape[-1])[k])
 
         yield Suspect(
-            _added(along),
+            added(along),
             lambda x, name=name: f"Coriolis term along joint {name!r} {_times(1 + x)}",  # type: ignore[misc]
             "turning",
         )
@@ -318,20 +266,9 @@ def _times(factor: float, plural: bool = False) -> str:
 
 def _damping(turning: bool, growing: bool) -> Suspect:
     """Drag on every body, as a part of its momentum; ``growing`` by as much again with each unit of speed."""
-
-    def drag(m: Model, q: Array, v: Array) -> Array:
-        state = motion(m.links, q, v)
-        partial = state.partial_omega if turning else state.partial_velocity
-        speed = summed(partial, v)
-        scale = 1 + np.linalg.norm(speed, axis=-1, keepdims=True) if growing else 1.0
-        masses = np.array([link.mass for link in m.links])[:, None]
-        R = quaternions.matrix(state.quaternion)
-        tensor = R @ np.stack([np.asarray(link.inertia) for link in m.links]) @ np.swapaxes(R, -1, -2)
-        momentum = (tensor @ speed[..., None])[..., 0] if turning else masses * speed
-        return np.asarray(np.sum(partial * (scale * momentum)[..., None, :], axis=(-3, -1)))
-
     name = "angular" if turning else "linear"
-    return Suspect(_added(drag), lambda x: f"{name} damping ≈ {x:.3g} /s", f"{name} damping")
+    term = partial(drag, turning=turning, growing=growing)
+    return Suspect(added(term), lambda x: f"{name} damping ≈ {x:.3g} /s", f"{name} damping")
 
 
 def _force(model: Model, place: int) -> Iterator[Suspect]:
@@ -351,60 +288,6 @@ def _force(model: Model, place: int) -> Iterator[Suspect]:
             scaled,
             lambda x, part=part.name: f"{part} of the {name} force {_times(1 + x)}",  # type: ignore[misc]
         )
-
-
-def _forced(at: int, force: Callable[[Array, Array], Array]) -> Change:
-    """X times ``force`` along one velocity."""
-
-    def along(m: Model, q: Array, v: Array) -> Array:
-        result = np.zeros_like(v)
-        result[..., at] = -force(q, v)
-        return result
-
-    return _added(along)
-
-
-def _added(term: Callable[[Model, Array, Array], Array]) -> Change:
-    """X times more of a ``term`` that stands on the side of inertia."""
-
-    def changed(m: Model, x: float) -> Model:
-        before = m.added
-        return replace(m, added=lambda q, v: (before(q, v) if before else 0.0) - x * term(m, q, v))
-
-    return changed
-
-
-def _bias(m: Model, q: Array, v: Array) -> Array:
-    return equations_of_motion.bias(m.links, q, v)
-
-
-def _gyroscopic(m: Model, q: Array, v: Array) -> Array:
-    """What ω×Iω of all links is along each velocity."""
-    state = motion(m.links, q, v)
-    R = quaternions.matrix(state.quaternion)
-    tensor = R @ np.stack([np.asarray(link.inertia) for link in m.links]) @ np.swapaxes(R, -1, -2)
-    omega = summed(state.partial_omega, v)
-    torque = np.cross(omega, (tensor @ omega[..., None])[..., 0])
-    return np.asarray(np.sum(state.partial_omega * torque[..., None, :], axis=(-3, -1)))
-
-
-def _linear_weight(model: Model, at_q: int, at_v: int) -> Callable[[Array, Array], Array]:
-    """The weight along a velocity as it would be if it grew with the coordinate, less what it is."""
-
-    def weight(q: Array) -> Array:
-        still = np.zeros((*q.shape[:-1], len(model.scene.v0)))
-        acting = equations_of_motion.required_forces(model.links, q, still, still, model.gravity)
-        return np.asarray(-acting[..., at_v])
-
-    def difference(q: Array, v: Array) -> Array:
-        near, width = np.array(q), 1e-5
-        near[..., at_q] = width
-        far = np.array(near)
-        far[..., at_q] = -width
-        slope = (weight(near) - weight(far)) / (2 * width)
-        return np.asarray(slope * q[..., at_q] - weight(q))
-
-    return difference
 
 
 def _axis(side: Array) -> str:

@@ -52,3 +52,8 @@ def listed(words: Iterable[str], most: int = 4) -> str:
     if len(every) > most + 1:
         every = [*every[:most], f"{len(every) - most} more"]
     return " and ".join([", ".join(every[:-1]), every[-1]]) if len(every) > 1 else "".join(every)
+
+
+def share(x: float) -> str:
+    """A relative change in words: 0.1 % high."""
+    return f"{abs(100 * x):.3g} % {'high' if x > 0 else 'low'}"
