@@ -73,7 +73,7 @@ def _truth(scene: Scene, t: Array) -> Trajectory:
     if (scene.q0, scene.v0) == START:
         q, omega = _steady(t)
     else:  # the same samples, but for their rounding, at every step: integrated once
-        q, omega = _from(scene.q0, scene.v0, np.round(t, 12).tobytes())
+        q, omega = _from(scene.q0, scene.v0, np.round(t, 15).tobytes())
     arms = np.array([[0.0, 0.0, LENGTH / 2], [0.0, 0.0, ARM]])
     position, velocity = quaternions.rotated(q, arms), quaternions.rotated(q, np.cross(omega, arms))
     position[:, 1] += 2 * position[:, 0]

@@ -113,7 +113,9 @@ _WORDS = {True: "sleeps", False: "falls"}
 #: C of C·dt^order of each observable in turn, measured by benchmarks/error_constants.py with MuJoCo 4.0.0.
 ERRORS: dict[str, dict[str, tuple[float, ...]]] = {
     "0.9": {
-        "semi-implicit Euler": (120.0, 1400.0, 1.1, 2.3, 0.23, 0.0, 0.0, 5.7, 76.0),
+        # A growth rate nearly right by chance, 40 times nearer than with the gyroscopic term implicit: 1.1 at
+        # these looks, up to 2.0 at up to half as many more.
+        "semi-implicit Euler": (120.0, 1400.0, 2.0, 2.3, 0.23, 0.0, 0.0, 5.7, 76.0),
         "implicit gyroscopic": (110.0, 1200.0, 40.0, 2.4, 0.17, 0.0, 0.0, 5.2, 61.0),
         "RKMK4": (1.9e4, 1.7e5, 1.8e4, 49.0, 17.0, 0.0, 0.0, 920.0, 1.2e4),
     },
