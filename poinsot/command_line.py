@@ -67,7 +67,7 @@ def run(
         report. A new entry lacks its reason, which is for you to find; no bound is ever widened.
     """
     from .adapters.runner import cores
-    from .estimate import estimate, others, pulse
+    from .estimate import estimate, machine
     from .main_job import output_folder
     from .main_job import run as run_all
     from .plan import Extent, plan
@@ -82,7 +82,7 @@ def run(
     laid = plan(select(list(scene)), engine or [], scheme or [], dt or [], extent)
     folder = output_folder(out)
     command = shlex.join(["poinsot", *_arguments()])
-    expected = estimate(laid, workers or cores(), cores(), timing, pulse(), others())
+    expected = estimate(laid, workers or cores(), cores(), timing, *machine(cores()))
     sys.stderr.write(f"{expected}\n")
     with bar(expected) as progress:
         found = run_all(laid, folder, command, workers or cores(), time_limit, timing, progress, expected)

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from time import perf_counter, process_time
 from typing import Any, NamedTuple
 
 from . import precision
@@ -23,12 +24,14 @@ from .reports.wording import count
 from .scenarios.registry import scenes
 from .scenarios.scene import Scene
 
-#: How often the speed of the machine is looked at, a few milliseconds each; the fastest counts.
-LOOKS = 5
+#: How often the machine is looked at, two milliseconds each.
+LOOKS = 15
 #: What part of the whole must be behind us for the pace so far to count as much as the estimate.
 TRUSTED = 0.1
 #: From how many times longer on others are spoken of: what always runs beside takes less.
 CROWDED = 1.25
+#: What one process does, however many workers there are.
+ALONE = "timing", "report"
 
 
 class Work(NamedTuple):
@@ -104,21 +107,30 @@ def estimate(
         "report": [rates["report"]["start"] + rates["report"]["cell"] * len(laid.records)],
     }
     scaled = {name: [piece * slow for piece in pieces] for name, pieces in phases.items() if pieces}
-    return Estimate(len(laid.requests), workers, scaled, pulse, max(1.0, (others + at_once) / cores))
+    busy = {name: 1 if name in ALONE else at_once for name in scaled}
+    crowded = sum(sum(pieces) * max(1.0, (others + busy[name]) / cores) for name, pieces in scaled.items())
+    alone = sum(map(sum, scaled.values()))
+    return Estimate(len(laid.requests), workers, scaled, pulse, crowded / alone)
 
 
-def pulse() -> float:
-    """Time [s] of a fixed piece of Python's own work, undisturbed: how fast this machine is."""
-    return min(beat() for _ in range(LOOKS))
+def machine(cores: int) -> tuple[float, float]:
+    """Time [s] of a fixed piece of work here, undisturbed, and how many other processes want a core now."""
+    pulses, running = [], []
+    clock, processor = perf_counter(), process_time()
+    for _ in range(LOOKS):
+        pulses.append(beat())
+        running.append(_running())
+    share = (process_time() - processor) / (perf_counter() - clock)
+    # Of the others that run, those that yield to us take less of a core: how much is left to us tells.
+    return min(pulses), min(_mean(running), cores / share - 1)
 
 
-def others() -> float:
-    """How many processes beside this one want a core, now and over a minute; 0 where it is not told."""
-    if not hasattr(os, "getloadavg"):
-        return 0.0
-    told = Path("/proc/loadavg")
-    now = int(told.read_text().split()[3].partition("/")[0]) - 1 if told.is_file() else math.inf
-    return min(os.getloadavg()[0], now)
+def _running() -> float:
+    """How many processes beside this one run, at this moment if the system tells, or in the last minute."""
+    now = Path("/proc/loadavg")
+    if now.is_file():
+        return int(now.read_text(encoding="ascii").split()[3].partition("/")[0]) - 1
+    return os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
 
 
 def kind(scene: Scene) -> str:

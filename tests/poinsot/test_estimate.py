@@ -140,8 +140,17 @@ def test_the_line_before_a_run(own):
     said = str(estimate(asked, 1, 2, True, PULSE, others=1))
     assert said.startswith("11 cells, about ")
     assert said.endswith("with 1 worker on this machine")
-    crowded = str(estimate(asked, 2, 2, True, PULSE, others=2))
-    assert crowded.endswith(f"; {spoken(2 * seconds(asked))} while others keep it as busy as now")
+    crowded = str(estimate(asked, 2, 2, False, PULSE, others=4))
+    assert "while others keep it as busy as now" in crowded
+
+
+def test_others_take_their_part_of_the_cores_there_are(own):
+    asked = laid(own)
+    for others, cores, of_many, of_one in ((0, 2, 1, 1), (1, 2, 1.5, 1), (4, 2, 3, 2.5), (4, 8, 1, 1)):
+        found = estimate(asked, 2, cores, True, PULSE, others)
+        alone = sum(sum(found.phases[phase]) for phase in ("timing", "report"))
+        many = found.seconds - alone
+        assert found.crowding * found.seconds == pytest.approx(of_many * many + of_one * alone)
 
 
 def test_a_plan_of_nothing_takes_next_to_nothing():
