@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import groupby
+from math import log
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -40,6 +41,7 @@ def render(results: Record, pictures: Mapping[str, Sequence[Figure]], out: Path)
             pictures=pictures,
             costs=_costs(digest),
             cheapest=_cheapest(digest),
+            rates=_rates(digest),
             weights=_weights(digest),
             settings=_settings(digest),
             plotly=_library(),
@@ -100,6 +102,27 @@ def _cheapest(digest: Digest) -> dict[str, list[Record]]:
         if not mine or mine[0]["observable"] == row["observable"]:
             mine.append(row)
     return {scene: rows for scene, rows in found.items() if any(row["engine"] for row in rows)}
+
+
+def _rates(digest: Digest) -> dict[str, Record]:
+    """What was fitted to the motions of each scene at its own step: the exact rates, and each scheme's."""
+    rows: dict[str, list[Record]] = {}
+    for row in digest.work_precision:
+        if row.get("fitted") is not None:
+            rows.setdefault(row["scene"], []).append(row)
+    return {scene: _fitted(mine, digest) for scene, mine in rows.items()}
+
+
+def _fitted(rows: Sequence[Record], digest: Digest) -> Record:
+    own = digest.scenes[rows[0]["scene"]].get("dt") or rows[0]["dt"]
+    dt = min((row["dt"] for row in rows), key=lambda step: abs(log(step / own)))
+    rates = {row["observable"]: row for row in rows}
+    found = {(row["engine"], row["scheme"], row["observable"]): row for row in rows if row["dt"] == dt}
+    lines = [
+        (column, [found.get((column.engine, column.scheme, name)) for name in rates])
+        for column in digest.columns
+    ]
+    return {"dt": dt, "rates": list(rates.values()), "lines": [line for line in lines if any(line[1])]}
 
 
 def _weights(digest: Digest) -> dict[str, str]:

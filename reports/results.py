@@ -15,6 +15,7 @@ from . import stored
 from .cell import Cell
 from .cheapest import cheapest
 from .common_causes import Localisation, grouped
+from .fitted import fitted
 from .verdict import Ladder, Status, Verdict
 
 SCHEMA = "poinsot.results/1"
@@ -175,6 +176,7 @@ def exit_code(found: Mapping[str, Any]) -> int:
 
 def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
     p, distances = cell.provenance, cell.distance(observable)
+    rate = fitted(cell, observable)
     return {
         "scene": p.scene,
         "engine": p.engine,
@@ -188,6 +190,9 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
         "error_final": _finite(float(distances[-1])),
         "round_off": _finite(cell.round_off(observable)),
         "error_rms": _finite(float(np.sqrt(np.mean(distances**2)))),
+        "fitted": _finite(rate.value) if rate else None,
+        "uncertainty": _finite(rate.uncertainty) if rate and rate.uncertainty is not None else None,
+        "exact": _finite(rate.exact) if rate else None,
         "judged": True,
     }
 

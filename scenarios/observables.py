@@ -26,7 +26,8 @@ class Observable:
     ``difference(scene, a, b)`` gives its signed components (n, k), ``a`` minus ``b``, in ``unit``,
     one row a sample; a rate, measured over the whole run, has one row. ``scale(scene, b)`` is the
     size [``unit``] against which round-off is measured. A ``state`` is part of the motion itself, a
-    ``rate`` is a number fitted to it, an ``invariant`` must keep the value it began with.
+    ``rate`` is a number fitted to it, of which ``exact(scene)`` is the closed form, an ``invariant`` must
+    keep the value it began with.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Observable:
     kind: Kind
     difference: Callable[[Scene, Trajectory, Trajectory], Array]
     scale: Callable[[Scene, Trajectory], float]
+    exact: Callable[[Scene], float] | None = None
 
     def distance(self, scene: Scene, a: Trajectory, b: Trajectory) -> Array:
         """Length of the difference at each sample, (n,), or (1,) for a rate."""
@@ -99,7 +101,7 @@ def rate(
         centred = a.t - a.t.mean()
         return np.array([[centred @ relative / (centred @ centred)]])
 
-    return Observable(name, "rad/s", "rate", difference, lambda scene, b: abs(exact(scene)))
+    return Observable(name, "rad/s", "rate", difference, lambda scene, b: abs(exact(scene)), exact)
 
 
 def fitted(
@@ -117,7 +119,7 @@ def fitted(
     def difference(scene: Scene, a: Trajectory, b: Trajectory) -> Array:
         return np.array([[value(scene, a) - value(scene, b)]])
 
-    return Observable(name, unit, "rate", difference, lambda scene, b: abs(exact(scene)))
+    return Observable(name, unit, "rate", difference, lambda scene, b: abs(exact(scene)), exact)
 
 
 def invariant(
