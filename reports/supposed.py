@@ -75,11 +75,6 @@ class Model:
         more, pushed = self._more(q, v), self.pushed(q, v)
         return equations_of_motion.accelerations(self.links, q, v, self.gravity, more, pushed)
 
-    def left_over(self, q: Array, v: Array, a: Array) -> Array:
-        """Force (n, nv) that is missing for v̇ to be ``a``."""
-        more, pushed = self._more(q, v), self.pushed(q, v)
-        return equations_of_motion.required_forces(self.links, q, v, a, self.gravity, more, pushed)
-
     def linearised(self, q: Array, v: Array) -> tuple[Array, Array]:
         """Mass matrix and −∂f/∂v (n, nv, nv), of all forces but those from outside."""
         # Forces are of second degree in the velocities: a central difference of any width is exact.

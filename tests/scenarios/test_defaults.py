@@ -54,7 +54,8 @@ def test_what_an_engine_does_by_itself_is_known_and_tuned_it_does_so_no_longer(n
     found = verdicts(getattr(module, engine), name)
     assert {verdict.status for verdict in found} == {Status.PASS, Status.KNOWN}
     known = {verdict.check for verdict in found if verdict.status is Status.KNOWN}
-    assert {"truth", "setup"} <= known or (name, engine) == ("rolling[defaults]", "MuJoCo")
+    # MuJoCo's pyramid of friction is no setting that its model tells of: it shows in the motion.
+    assert ({"truth"} if (name, engine) == ("rolling[defaults]", "MuJoCo") else {"truth", "setup"}) <= known
     now = verdicts(tuned(getattr(module, engine)), name)
     assert Status.FIXED in {verdict.status for verdict in now}
     assert Status.KNOWN not in {verdict.status for verdict in now}
