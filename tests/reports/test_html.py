@@ -211,3 +211,24 @@ def test_a_large_run_stays_one_file_of_reasonable_size(remade, moved, tmp_path, 
     # A message with attachments may have 25 MB; per scene and scheme the report spends about 12 kB.
     assert len(text.encode()) < 12e6
     assert (len(text) - library) / (35 * 12) < 14e3
+
+
+def test_what_was_fitted_stands_beside_its_closed_form(remade, tmp_path):
+    results = remade()
+    rows = [row for row in results["work_precision"] if row["scene"] == "heavy_top[fast]"]
+    rates = [
+        row
+        | {"observable": "precession", "unit": "rad/s", "exact": 0.5, "fitted": 0.5 + row["dt"]}
+        | {"uncertainty": None if row["engine"] == "pinocchio" else 2e-7}
+        for row in {(row["engine"], row["scheme"], row["dt"]): row for row in rows}.values()
+    ]
+    results["work_precision"] += rates
+    results["scenes"]["heavy_top[fast]"] = {**results["scenes"]["heavy_top[fast]"], "dt": 1e-3}
+    words = Page(rendered(results, tmp_path)).words()
+    table = words[words.index("precession [rad/s]") :]
+    assert "0.5000000000" in table
+    assert "0.5010000000" in table  # at the scene's own step, 1e-3 s, and at no other
+    assert "0.5020000000" not in table
+    assert "± 2e-07" in table
+    assert "± unknown" in table
+    assert "+1.0e-03" in table
