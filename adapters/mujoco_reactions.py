@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..reference.checked import Array
+from ..reference.quaternions import cross
 
 
 def reactions(mujoco: Any, model: Any, data: Any, bodies: Sequence[int]) -> Array:
@@ -20,5 +21,5 @@ def reactions(mujoco: Any, model: Any, data: Any, bodies: Sequence[int]) -> Arra
         torque, force = np.split(data.cfrc_int[body], 2)
         arm = data.subtree_com[model.body_rootid[body]] - data.xpos[body]
         axes = data.xmat[body].reshape(3, 3)
-        row[:3], row[3:] = force @ axes, (torque + np.cross(arm, force)) @ axes
+        row[:3], row[3:] = force @ axes, (torque + cross(arm, force)) @ axes
     return found

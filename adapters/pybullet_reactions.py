@@ -5,7 +5,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..reference.checked import Array
-from ..reference.quaternions import rotated
+from ..reference.quaternions import cross, rotated
 from ..scenarios.scene import Scene
 from .pybullet_layout import Layout
 
@@ -48,7 +48,7 @@ class Sensors:
         told = [self._p.getJointStateMultiDof(*place, self._copy.client)[2] for place in self._places()]
         axes, center = self._copy.axes[self._held], self._copy.center[self._held]
         force, moment = (rotated(axes, part) for part in np.split(np.array(told), 2, axis=1))
-        return np.hstack([force, moment + np.cross(center, force)])
+        return np.hstack([force, moment + cross(center, force)])
 
     def _places(self) -> list[tuple[int, int]]:
         return [self._copy.at.bodies[body] for body in self._held]
