@@ -2,6 +2,7 @@
 
     python benchmarks/unphysical_input.py             print the table
     python benchmarks/unphysical_input.py --publish   write reports/published/UNPHYSICAL.md
+    python benchmarks/unphysical_input.py --check     hold that page against a new run; 1 if it differs
 
 Each case is a free body, spinning in space without gravity, given to the engine as its users give it (MJCF,
 URDF, Python calls) in a process of its own, and stepped 1000 times by 1 ms. Poinsot itself refuses every one
@@ -188,10 +189,14 @@ def _short(text, most=110):
     return text if len(text) <= most else text[: most - 1] + "…"
 
 
+def versions():
+    """Each engine with its version."""
+    packages = {"mujoco": "mujoco", "pybullet": "pybullet", "pinocchio": "pin"}
+    return [f"{name} {metadata.version(package)}" for name, package in packages.items()]
+
+
 def page():
     """The table, in Markdown."""
-    packages = {"mujoco": "mujoco", "pybullet": "pybullet", "pinocchio": "pin"}
-    versions = {name: metadata.version(package) for name, package in packages.items()}
     lines = [
         "# What engines make of unphysical input",
         "",
@@ -201,8 +206,8 @@ def page():
         "Poinsot refuses all of it before an engine is asked, but the sound body, the plates and the needle.",
         "ω is in body axes.",
         "",
-        "| input | " + " | ".join(f"{name} {version}" for name, version in versions.items()) + " |",
-        "|---|" + "---|" * len(versions),
+        "| input | " + " | ".join(versions()) + " |",
+        "|---|" + "---|" * len(versions()),
     ]
     for name, case in CASES.items():
         cells = [outcome(engine, case) for engine in ENGINES]
@@ -211,14 +216,12 @@ def page():
 
 
 def main(arguments):
-    """Print the table, or write it."""
-    text = page()
-    if "--publish" in arguments:
-        PAGE.parent.mkdir(exist_ok=True)
-        PAGE.write_text(text, encoding="utf-8")
-    else:
-        sys.stdout.write(text)
+    """Print the table, write it, or hold it against what it says."""
+    from published import settled  # beside this file, which a test may load from elsewhere
+
+    # Numbers are printed to four digits, the last of which may be rounded otherwise elsewhere.
+    return settled(page(), PAGE, arguments, dict.fromkeys(versions(), 1.002))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(main(sys.argv[1:]))
