@@ -1,6 +1,7 @@
 """MuJoCo, built by MjSpec: bodies and joints only, and contact where a scene has contacts."""
 
 import warnings
+from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import Any, ClassVar
 
@@ -9,8 +10,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..reference.checked import Array
+from ..scenarios.blows import over_step, stretches
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.features import FEATURES
+from ..scenarios.forces import Force
 from ..scenarios.scene import Scene
 from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
@@ -84,22 +87,23 @@ class MuJoCo:
         self._model = _compiled(self._spec, scene.full_name)
         _keep_small_offsets(self._model)
         self._locate([body.id for body in bodies], [joint.id for joint in joints])
-        forces = Forces(mujoco, scene, self._bodies) if scene.forces else None
-        self._forced = forces.acting if forces else nullcontext
+        self._forces = Forces(mujoco, scene, self._bodies) if scene.forces else None
+        self._forced = self._forces.acting if self._forces else nullcontext
         self._masses = Masses(mujoco, scene, self._model, self._bodies, dt) if scene.burning else None
         self._data, self._scratch = mujoco.MjData(self._model), mujoco.MjData(self._model)
         self._data.qpos[self._q], self._data.qvel[self._v] = scene.q0, scene.v0
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps in MuJoCo's own loop."""
-        with self._forced():
-            if self._masses is None:
-                mujoco.mj_step(self._model, self._data, nstep=n)
-            else:
-                for k in range(n):
-                    self._masses.at(self._steps + k)
-                    mujoco.mj_step(self._model, self._data)
-        self._steps += n
+        for count, forces in stretches(self._scene.forces, self._model.opt.timestep, self._steps, n):
+            with self._forced(forces):
+                if self._masses is None:
+                    mujoco.mj_step(self._model, self._data, nstep=count)
+                else:
+                    for k in range(count):
+                        self._masses.at(self._steps + k)
+                        mujoco.mj_step(self._model, self._data)
+            self._steps += count
 
     def state(self) -> State:
         """Where everything is now. Raises ``EngineError`` if MuJoCo warned, reset itself or is not finite."""
@@ -144,16 +148,18 @@ class MuJoCo:
         data = self._scratch
         q, v = self._centred.state(q, v)
         data.qpos[self._q], data.qvel[self._v] = q, v
-        self._forward()
+        self._forward(self._scene.forces)
         return self._centred.acceleration(q, v, data.qacc_smooth[self._v])
 
     def reactions(self) -> Array:
         """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
         self._scratch.qpos[:], self._scratch.qvel[:] = self._data.qpos, self._data.qvel
-        self._forward()
-        names = [body.name for body in self._scene.bodies]
-        held = [int(self._bodies[names.index(name)]) for name in self._scene.reactions]
-        return reactions(mujoco, self._model, self._scratch, held)
+        scene, model, data = self._scene, self._model, self._scratch
+        self._forward(over_step(scene.forces, model.opt.timestep, self._steps))
+        names = [body.name for body in scene.bodies]
+        held = [int(self._bodies[names.index(name)]) for name in scene.reactions]
+        outer = self._forces.found(model, data) if self._forces else None
+        return reactions(mujoco, model, data, held, self._bodies, outer)
 
     def model_text(self) -> tuple[str, str]:
         """The model as MJCF, with every digit."""
@@ -178,12 +184,12 @@ class MuJoCo:
         )
         self._scalar_q, self._scalar_v = first_q[scalar], first_v[scalar]
 
-    def _forward(self) -> None:
-        """Make of the scratch copy's coordinates and velocities all that follows from them."""
+    def _forward(self, forces: Sequence[Force]) -> None:
+        """Make of the scratch copy's coordinates and velocities all that follows from them and ``forces``."""
         # Under "discrete" qacc is the change of velocity over a whole step.
         option, euler = self._model.opt, mujoco.mjtIntegrator.mjINT_EULER
         chosen, option.integrator = option.integrator, euler
-        with self._forced():
+        with self._forced(forces):
             mujoco.mj_forward(self._model, self._scratch)
         option.integrator = chosen
 

@@ -1,13 +1,13 @@
 """Forces from outside the joints in MuJoCo: by its callback for passive forces, at every stage of a step."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
 from ..reference.checked import Array
-from ..scenarios.forces import forces_on
+from ..scenarios.forces import Force, forces_on
 from ..scenarios.scene import Scene
 
 
@@ -18,14 +18,17 @@ class Forces:
     """
 
     def __init__(self, mujoco: Any, scene: Scene, bodies: Array) -> None:
-        self._mujoco, self._bodies = mujoco, bodies
+        self._mujoco, self._bodies, self._scene = mujoco, bodies, scene
+        self._acting: Sequence[Force] = scene.forces
         self._total = forces_on(scene.bodies, scene.forces)
         self._needs_velocity = any(force.needs_velocity for force in scene.forces)
         self._velocity, self._speed = np.zeros((len(bodies), 3)), np.zeros(6)
 
     @contextmanager
-    def acting(self) -> Iterator[None]:
-        """Let them act on what MuJoCo steps meanwhile: its callback is the process's, not a model's."""
+    def acting(self, forces: Sequence[Force]) -> Iterator[None]:
+        """Let those act on what MuJoCo steps meanwhile: its callback is the process's, not a model's."""
+        if forces is not self._acting:
+            self._acting, self._total = forces, forces_on(self._scene.bodies, forces)
         before = self._mujoco.get_mjcb_passive()
         self._mujoco.set_mjcb_passive(self._push)
         try:
@@ -33,15 +36,19 @@ class Forces:
         finally:
             self._mujoco.set_mjcb_passive(before)
 
-    def _push(self, model: Any, data: Any) -> None:
+    def found(self, model: Any, data: Any) -> Array:
+        """What those that acted last are in the state of ``data`` (b, 3) [N], world axes."""
         mujoco, velocity = self._mujoco, self._velocity
         if self._needs_velocity:
             for row, body in zip(velocity, self._bodies, strict=True):
                 mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, self._speed, 0)
                 row[:] = self._speed[3:]
+        return self._total(data.xipos[self._bodies], velocity)
+
+    def _push(self, model: Any, data: Any) -> None:
         places = data.xipos[self._bodies]
-        for force, place, body in zip(self._total(places, velocity), places, self._bodies, strict=True):
-            mujoco.mj_applyFT(model, data, force, _NO_TORQUE, place, body, data.qfrc_passive)
+        for force, place, body in zip(self.found(model, data), places, self._bodies, strict=True):
+            self._mujoco.mj_applyFT(model, data, force, _NO_TORQUE, place, body, data.qfrc_passive)
 
 
 _NO_TORQUE = np.zeros(3)

@@ -11,7 +11,8 @@ SETTINGS = {
     "as they are (inertia exact)",
     "free bodies": "moved by their centre of mass, wherever their origin is, as PyBullet moves them",
     "forces": "by the callback for passive forces, at every stage of a step",
-    "reactions": "by mj_rnePostConstraint, at the accelerations of the very state",
+    "reactions": "by mj_rnePostConstraint, at the accelerations of the very state; forces of the callback, "
+    "which it leaves in, are told it again as xfrc_applied, which it takes off",
     "sameframe": "none, where the inertial frame differs at all from the body's; "
     "MuJoCo by itself drops offsets below 1e-6 m and turns below 1e-6",
 }

@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from ..reference.checked import Array
+from ..scenarios.blows import over_step, stretches
 from ..scenarios.body import WIDTHS, Body, Joint
 from ..scenarios.features import FEATURES
 from ..scenarios.scene import Scene
@@ -15,7 +16,7 @@ from .centred import centred
 from .engine import EngineError, Scheme, Setup, State
 from .pinocchio_burning import Masses
 from .pinocchio_contact import Contacts
-from .pinocchio_forces import joint_forces
+from .pinocchio_forces import Forces
 from .pinocchio_json import model_json
 from .pinocchio_parts import built
 from .pinocchio_schemes import Advance, Mechanism, implicit_gyroscopic, rkmk4, semi_implicit_euler
@@ -53,7 +54,7 @@ class Pinocchio:
         "(a FreeFlyer's, in body axes, is another and worse scheme)",
         "solids": "their volume, centre and inertia are those of Coal, which Pinocchio comes with",
         "springs, dampers and forces": "joint forces of ours, taken where the scheme takes its accelerations",
-        "reactions": "by rnea, at the accelerations that aba gives in the very state",
+        "reactions": "by rnea, at the accelerations that aba gives in the very state, and told of its forces",
         "contacts": "points, normals and gaps are Poinsot's own; the impulses are those of Pinocchio's "
         "projected Gauss-Seidel solver, at the end of each step",
     }
@@ -79,12 +80,14 @@ class Pinocchio:
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps of the scheme."""
-        if self._masses is None:
-            self._take(n)
-            return
-        for _ in range(n):
-            self._masses.at(self._steps)
-            self._take(1)
+        for count, forces in stretches(self._scene.forces, self._dt, self._steps, n):
+            self._outer.let_act(forces)
+            if self._masses is None:
+                self._take(count)
+                continue
+            for _ in range(count):
+                self._masses.at(self._steps)
+                self._take(1)
 
     def _take(self, n: int) -> None:
         self._position, self._velocity = self._advance(
@@ -133,6 +136,7 @@ class Pinocchio:
         """
         q, v = self._centred.state(q, v)
         position, velocity = self._ours_to_pinocchio(q, v)
+        self._outer.let_act(self._scene.forces)
         force = self._mechanism.force(position, velocity)
         found = pin.aba(self._model, self._data, position, velocity, force)[self._v]
         return self._centred.acceleration(q, v, found)
@@ -140,7 +144,9 @@ class Pinocchio:
     def reactions(self) -> Array:
         """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
         model, data, q, v = self._model, self._data, self._position, self._velocity
-        pin.rnea(model, data, q, v, pin.aba(model, data, q, v, self._mechanism.force(q, v)))
+        self._outer.let_act(over_step(self._scene.forces, self._dt, self._steps))
+        a = pin.aba(model, data, q, v, self._mechanism.force(q, v))
+        pin.rnea(model, data, q, v, a, self._outer.on_joints(q, v))
         last = {frame.name: frame.parentJoint for frame in self._frames}
         return np.array([data.f[last[name]].vector for name in self._scene.reactions])
 
@@ -181,8 +187,9 @@ class Pinocchio:
         for joint, i, j in zip(self._scene.scalar_joints, self._scalar_v, self._scalar_q, strict=True):
             self._pull[i, j], self._drag[i, i] = -joint.stiffness, -joint.damping
         force = _spring_force(self._pull, self._drag)
+        self._outer = Forces(pin, model, self._scene, self._centres)
         if self._scene.forces:
-            force = _sum(force, joint_forces(pin, model, self._scene, self._centres))
+            force = _sum(force, self._outer.along_velocities)
 
         # Where a free body is and how fast it flies changes nothing in M or ∂f/∂v but, as Pinocchio takes
         # them in world axes, their rounding: look at them at the origin, at rest.

@@ -61,7 +61,8 @@ class PyBullet:
         limits.refuse(scene, scheme, self._maximal)
         self._scene, self._untouched = scene, probes.without(scene)
         self._bare = probes.without(scene, "gravity", "stiffness", "damping")
-        self._slack = replace(self._bare, defaults=False)  # no motor keeps a force from moving its joint
+        # Without the motors that would keep a force from moving its joint.
+        self._slack = replace(self._bare, defaults=False) if scene.defaults else self._bare
         self._copy: _World | None = None
         self._sensors: Sensors | None = None
         q0, v0 = np.array(scene.q0), np.array(scene.v0)
@@ -146,6 +147,7 @@ class _World:
 
     def __init__(self, client: int, scene: Scene, maximal: bool, dt: float) -> None:
         self.client, self.scene, self.dt, self._size, self._maximal = client, scene, dt, 0, maximal
+        self.steps = 0  # counted where forces have to be handed over
         p.resetSimulation(physicsClientId=client)
         p.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=client)
         p.setGravity(*scene.gravity, physicsClientId=client)
@@ -245,10 +247,11 @@ class _World:
 
     def _pull(self, n: int) -> None:
         """Take ``n`` steps, each after handing PyBullet the forces of springs and from outside the joints."""
-        for _ in range(n):
+        for step in range(self.steps, self.steps + n):
             for push in self._pushes:
-                push()
+                push(step)
             p.stepSimulation(self.client)
+        self.steps += n
 
     def _bodies(self) -> tuple[Array, Array, Array, Array]:
         """Positions, quaternions, velocities and ω of the bodies, shapes and frames as in ``State``."""

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..reference.checked import Array
 from ..reference.quaternions import conjugate, cross, rotated
+from ..scenarios.blows import lasting
 from ..scenarios.scene import Scene
 
 #: ``change(q, v, dt, steps)``: change of the velocities (nv,) over so many steps, by their duration.
@@ -141,13 +142,16 @@ def at_origin(center: Array, turn: Array, omega: Array, arm: Array) -> Array:
 
 
 def without(scene: Scene, *settings: str) -> Scene:
-    """The scene without contacts and burning, ``gravity`` and forces, ``stiffness`` or ``damping``."""
+    """The scene without contacts and burning, ``gravity`` and forces, ``stiffness`` or ``damping``.
+
+    What forces it keeps act for ever, blows too.
+    """
     lost: dict[str, Any] = dict.fromkeys(set(settings) - {"gravity"}, 0.0)
     bodies = [
         replace(body, joints=tuple(replace(joint, **lost) for joint in body.joints)) for body in scene.bodies
     ]
     weightless = "gravity" in settings
-    gravity, forces = ((0.0, 0.0, 0.0), ()) if weightless else (scene.gravity, scene.forces)
+    gravity, forces = ((0.0, 0.0, 0.0), ()) if weightless else (scene.gravity, lasting(scene.forces))
     return replace(scene, bodies=tuple(bodies), gravity=gravity, forces=forces, contacts=(), burning=())
 
 

@@ -14,6 +14,7 @@ class World(Protocol):
     """A scene in a client of PyBullet: where all is, and the bodies' inertial frames in their own."""
 
     client: int
+    steps: int
     scene: Scene
     at: Layout
     center: Array
@@ -54,7 +55,8 @@ class Sensors:
         return [self._copy.at.bodies[body] for body in self._held]
 
     def _follow(self, run: World) -> None:
-        """Put the copy where the world that runs is, in PyBullet's own numbers."""
+        """Put the copy where and when the world that runs is, in PyBullet's own numbers."""
+        self._copy.steps = run.steps
         p, to, at = self._p, self._copy.client, self._copy.at
         for here, there in zip(at.free, run.at.free, strict=True):
             p.resetBasePositionAndOrientation(

@@ -5,6 +5,7 @@ them, a reset in one, noise differently in each. Where the scheme is known here 
 so that a right run leaves nothing over but rounding.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy.typing as npt
 
 from ..reference import equations_of_motion, quaternions, tree_schemes
 from ..reference.checked import Array
+from ..scenarios.blows import at_work
 from ..scenarios.body import Body
 from ..scenarios.equations import links
 from ..scenarios.scene import Scene
@@ -88,8 +90,21 @@ class Intervals:
         count, dt, name = self.stride if steps is None else steps, self.dt * stretch, scheme
         if scheme == "exact":
             count, dt, name = FINE, dt * count / FINE, "RKMK4"
-        start = self.q[chosen], self.v[chosen]
-        return tree_schemes.advanced(name, model.links, model.accelerate, *start, dt, count, model.linearised)
+        q, v = self.q[chosen], self.v[chosen]
+        for model_now, mine in self._while(model, chosen):
+            q[mine], v[mine] = tree_schemes.advanced(
+                name, model.links, model_now.accelerate, q[mine], v[mine], dt, count, model_now.linearised
+            )
+        return q, v
+
+    def _while(self, model: Model, chosen: Places) -> Iterator[tuple[Model, Places]]:
+        """What of the model acts over which of the intervals: of blows, those that are on."""
+        middles = (chosen + 0.5) * (self.stride * self.dt)
+        acting = [at_work(model.forces, t) for t in middles.tolist()] if model.forces else []
+        for forces in dict.fromkeys(acting):
+            yield replace(model, forces=forces), np.flatnonzero([found == forces for found in acting])
+        if not acting:
+            yield model, np.arange(len(chosen))
 
 
 def centred(scene: Scene) -> Scene:

@@ -276,7 +276,11 @@ def _force(model: Model, place: int) -> Iterator[Suspect]:
     name = type(force).__name__
     for part in fields(force):  # type: ignore[arg-type]
         value = getattr(force, part.name)
-        if part.name.lower() == "center" or isinstance(value, str) or not np.any(np.asarray(value)):
+        if (
+            part.name.lower() in ("center", "start", "end")
+            or isinstance(value, str)
+            or not np.any(np.asarray(value))
+        ):
             continue
 
         def scaled(m: Model, x: float, part: str = part.name, value: object = value) -> Model:

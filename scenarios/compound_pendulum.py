@@ -13,7 +13,7 @@ import numpy as np
 
 from ..reference import compound_pendulum, inertia, quaternions
 from ..reference.checked import Array
-from . import hinged, observables, pictures, reactions
+from . import hinged, observables, pictures, reactions, struck_pendulum
 from .body import Body, Joint, Matrix, Vector
 from .observables import Observable
 from .scene import Scene
@@ -168,4 +168,5 @@ SCENES = (
     SMALL,
     _pendulum("large", "to and fro between ±2.6 rad", 1.2, -8.0),
     _as_engines_come(SMALL),
+    *(struck_pendulum.struck(variant, MASS, INERTIA, AXIS, ARM) for variant in struck_pendulum.PLACES),
 )

@@ -14,6 +14,7 @@ import numpy as np
 from ..reference import quaternions
 from ..reference.checked import Array, positive, unit_quaternion
 from ..reference.errors import InputError
+from .blows import Blow
 from .body import Body, Joint, Matrix, Quaternion, Vector
 from .burning import Burning
 from .contact import Contact, Plane, Rim, Sphere
@@ -215,6 +216,8 @@ def _scaled_contact(contact: Contact, L: float) -> Contact:
 
 
 def _scaled_force(force: Force, L: float, M: float, T: float) -> Force:
+    if isinstance(force, Blow):
+        force = replace(force, start=force.start * T, end=force.end * T)
     if isinstance(force, Constant):
         return replace(force, force=_vector(np.array(force.force) * (M * L / T**2)))
     if isinstance(force, Spring):

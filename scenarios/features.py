@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .blows import Blow
 from .contact import Rim
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ FEATURES: dict[str, str] = {
     "friction": "friction in contacts",
     "rim": "contact on the rim of a disc",
     "force": "forces that depend on where bodies are or how fast",
+    "blow": "forces that act for a while",
     "burning": "masses that fall while a scene runs",
     "reaction": "reactions of joints",
     "solid": "masses and inertias that the engine works out from shapes",
@@ -34,7 +36,8 @@ FEATURES: dict[str, str] = {
 
 #: Features that only have a meaning beside another: not told of as left out where that one is.
 DETAILS: dict[str, str] = {
-    "friction": "contact", "rim": "contact", "ellipsoid": "solid", "shell": "solid", "hollow": "solid",
+    "blow": "force", "friction": "contact", "rim": "contact",
+    "ellipsoid": "solid", "shell": "solid", "hollow": "solid",
 }  # fmt: skip
 
 #: What no scene gets unless a later feature names it, in words for the report.
@@ -55,6 +58,7 @@ def needed(scene: Scene) -> frozenset[str]:
         "friction": any(contact.friction for contact in scene.contacts),
         "rim": any(isinstance(contact.shape, Rim) for contact in scene.contacts),
         "force": bool(scene.forces),
+        "blow": any(isinstance(force, Blow) for force in scene.forces),
         "burning": bool(scene.burning),
         "reaction": bool(scene.reactions),
         "solid": bool(solids),

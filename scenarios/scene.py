@@ -10,6 +10,7 @@ import numpy as np
 
 from ..reference.checked import Array, finite, positive
 from ..reference.errors import InputError
+from .blows import Blow
 from .body import WIDTHS, Body, Joint, Vector
 from .burning import Burning
 from .contact import Contact
@@ -63,7 +64,8 @@ class Scene:
 
     ``contacts`` are the only pairs that touch each other; in a scene without any, nothing does.
     ``soft`` says of engines, by name, how far their contacts give way: granted beside round-off.
-    ``forces`` act at the centres of mass, beside gravity and what joints do; ``burning`` bodies lose mass.
+    ``forces`` act at the centres of mass, beside gravity and what joints do, blows among them for a while;
+    ``burning`` bodies lose mass.
     ``defaults`` asks engines to leave what they add by themselves, motors too, and contacts as they come.
     ``reactions`` names the bodies whose joints' reactions are measured, as ``Trajectory.reaction`` has them.
 
@@ -216,6 +218,8 @@ class Scene:
         self._check_reactions()
         for force in self.forces:
             force.acting(self.bodies)  # raises for a body that is not there
+            if isinstance(force, Blow):
+                force.refuse_between(self.duration / self.samples, self.duration)
         for burning in self.burning:
             burning.share(self.bodies, self.duration)  # raises where nothing is left
             for force in self.forces:
@@ -257,10 +261,8 @@ class Scene:
                 f"reactions: got {list(self.reactions)}, expected each once, of bodies that a ball, hinge or "
                 f"slide holds: {', '.join(held) or 'there are none'}"
             )
-        if self.reactions and (self.contacts or self.forces or self.burning):
-            raise InputError(
-                "reactions: got some beside contacts, forces or burning bodies; expected none of those"
-            )
+        if self.reactions and (self.contacts or self.burning):
+            raise InputError("reactions: got some beside contacts or burning bodies; expected none of those")
 
 
 def _plain(part: Any) -> dict[str, Any]:

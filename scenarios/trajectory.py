@@ -52,7 +52,8 @@ class Trajectory:
     ``reaction`` (n, k, 6) of the k bodies that the scene names in ``reactions``, none unless it does:
     force [N] and moment [N m] that the parent exerts on the body through its joints, in the **body's
     axes**, the moment about the origin of the body's frame, where those joints are. It is all that passes
-    through them, springs and dampers too, in the state of that very sample.
+    through them, springs and dampers too, and nothing that acts from outside, in the state of that very
+    sample and under the forces of the step about to be taken.
 
     Raises ``InputError`` if a shape does not fit.
     """

@@ -7,6 +7,7 @@ import pytest
 from poinsot.adapters import registry
 from poinsot.adapters.simulate import simulate, unsupported
 from poinsot.reference import equations_of_motion
+from poinsot.scenarios.blows import Blow
 from poinsot.scenarios.body import Body, Joint, diagonal
 from poinsot.scenarios.forces import Attraction, Center, Centrifugal, Constant, Coriolis, Spring, forces_on
 from poinsot.scenarios.scene import Scene
@@ -157,3 +158,44 @@ def test_a_force_is_part_of_the_logged_scene():
 def test_a_force_on_a_body_that_is_not_there_is_refused():
     with pytest.raises(Exception, match="force: got body 'third', expected one of first, second"):
         replace(free_pair(), forces=(Constant("third", (1.0, 0.0, 0.0)),))
+
+
+@CELLS
+def test_a_blow_gives_its_impulse_and_nothing_before_or_after(engine, scheme):
+    # Two of them, one upon the other, on the second of two free bodies, nothing else at work; called for at
+    # once, in pieces, and after accelerations were asked for, which all blows take part in.
+    blows = (Blow("second", (3.0, 0.0, -6.0), 0.2, 0.4), Blow("second", (0.0, 9.0, 0.0), 0.3, 0.7))
+    described = free_pair(blows)
+    machine, given = engine(), []
+    machine.build(described, scheme, 1e-2)
+    before = machine.state().velocity
+    for steps in (20, 5, 5, 3, 47, 20):
+        machine.acceleration(np.array(described.q0), np.array(described.v0))
+        machine.step(steps)
+        given.append((machine.state().velocity - before) * [[2.0], [3.0]])
+    machine.close()
+    second = [
+        (0, 0, 0),
+        (0.15, 0, -0.3),
+        (0.3, 0, -0.6),
+        (0.39, 0.27, -0.78),
+        (0.6, 3.6, -1.2),
+        (0.6, 3.6, -1.2),
+    ]
+    assert np.array(given)[:, 0] == pytest.approx(np.zeros((6, 3)), abs=1e-13)
+    assert np.array(given)[:, 1] == pytest.approx(np.array(second), abs=1e-13)
+
+
+@CELLS
+def test_blows_take_part_in_accelerations_whenever_they_act(engine, scheme):
+    if "acceleration" in scheme.lacks:
+        pytest.skip(scheme.lacks["acceleration"])
+    blow = Blow("second", (3.0, 0.0, -6.0), 0.5, 0.6)
+    q, v = (np.array(part) for part in (free_pair().q0, free_pair().v0))
+    found = []
+    for forces in ((blow,), (Constant("second", blow.force),)):
+        machine = engine()
+        machine.build(free_pair(forces), scheme, 1e-2)
+        found.append(machine.acceleration(q, v))
+        machine.close()
+    assert found[0].tolist() == found[1].tolist()

@@ -495,7 +495,7 @@ def test_joints_in_maximal_coordinates_are_refused(build, hung, kind):
 def test_what_maximal_coordinates_lack_is_said():
     lacking = set(SCHEMES[MAXIMAL].lacks) - {"acceleration"}
     assert lacking == PyBullet.features - {
-        "free", "gravity", "force", "burning", "contact", "friction", "solid",
+        "free", "gravity", "force", "blow", "burning", "contact", "friction", "solid",
     }  # fmt: skip
     assert set(SCHEMES[REDUCED].lacks) == {"rim", "ellipsoid", "shell", "hollow"}
 

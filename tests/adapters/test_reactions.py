@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from poinsot.adapters.simulate import digest, simulate
 from poinsot.reference import joint_reactions, quaternions
-from poinsot.scenarios import mechanics, rotor_balance
+from poinsot.scenarios import equations, mechanics, rotor_balance
 from poinsot.scenarios.body import Body, Joint
+from poinsot.scenarios.forces import Constant, Coriolis
 from poinsot.scenarios.registry import scenes
 
 DT = 1e-3
@@ -43,6 +44,29 @@ def test_they_are_those_of_newtons_and_eulers_equations_on_any_tree(random_tree,
         links_of(scene), scene.q0, scene.v0, scene.gravity, [names.index(name) for name in scene.reactions]
     )
     assert told(name, scene) == pytest.approx(expected, abs=1e-11 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("name", ["mujoco", "pinocchio", "pybullet"])
+def test_what_acts_from_outside_is_no_part_of_them(random_tree, links_of, name, seed):
+    # Left in, as MuJoCo and Pinocchio do by themselves, it would show in force and moment.
+    made("pybullet")
+    scene = held(random_tree(seed))
+    pushed = [body.name for body in scene.bodies]
+    forces = (
+        Constant(pushed[-1], (3.0, -2.0, 5.0)),
+        Coriolis((0.4, -0.7, 1.1)),
+        Constant(pushed[0], (1.0, 2.0, 0.5)),
+    )
+    scene = replace(scene, forces=forces, v0=tuple(1e-3 * np.array(scene.v0)))
+    state = np.array([scene.q0]), np.array([scene.v0])
+    outer = equations.outer_forces(scene, *state)
+    expected = joint_reactions.reactions(
+        links_of(scene), *state, scene.gravity, [pushed.index(body) for body in scene.reactions], outer
+    )[0]
+    # What PyBullet adds is of the square of speeds, here of 1e-3, after the step.
+    error = 1e-11 if name != "pybullet" else 1e-5
+    assert told(name, scene, 1e-9) == pytest.approx(expected, abs=error * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("name", ["mujoco", "pinocchio"])

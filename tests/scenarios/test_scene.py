@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from poinsot.reference.errors import InputError
 from poinsot.scenarios import heavy_top, observables, registry
 from poinsot.scenarios.body import Body, Joint, diagonal
+from poinsot.scenarios.burning import Burning
 from poinsot.scenarios.forces import Constant
 from poinsot.scenarios.registry import scenes, select
 from poinsot.scenarios.scene import Scene
@@ -66,13 +67,14 @@ def test_what_cannot_be_is_refused_by_scene_and_field(changes, says):
     assert str(caught.value).startswith("scene reach[far]: ")
 
 
-def test_reactions_are_of_bodies_that_joints_hold_and_stand_beside_no_other_forces():
+def test_reactions_are_of_bodies_that_joints_hold_and_stand_beside_no_contacts_or_burning():
     thrown = Body("a", 1.0, UNIT, (Joint("free", "free"),))
     at_rest = {"q0": (0.0,) * 6 + (1.0,), "v0": (0.0,) * 6}
     with pytest.raises(InputError, match="slide holds: there are none"):
         scene(bodies=(thrown,), reactions=("a",), **at_rest)
-    with pytest.raises(InputError, match="reactions: got some beside contacts, forces or burning bodies"):
-        scene(reactions=("arm",), forces=(Constant("hand", (0.0, 0.0, 1.0)),))
+    with pytest.raises(InputError, match="reactions: got some beside contacts or burning bodies"):
+        scene(reactions=("arm",), burning=(Burning("hand", 1e-3),))
+    assert scene(reactions=("arm",), forces=(Constant("hand", (0.0, 0.0, 1.0)),)).reactions
 
 
 def test_bodies_must_differ_in_name():
