@@ -6,10 +6,11 @@ the body; and one that asks at every stage of a step whether the blow is on, an 
 """
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
-from ..reference import compound_pendulum, inertia, quaternions, struck_pendulum
+from ..reference import inertia, quaternions, struck_pendulum
 from ..reference.checked import Array
 from . import mechanics, observables, pictures, reactions
 from .blows import Blow
@@ -61,9 +62,14 @@ def struck(variant: str, mass: float, tensor: Matrix, axis: Vector, arm: float) 
             observables.omega(),
             observables.position(),
             observables.velocity(),
-            observables.fitted("jump of omega", "rad/s", _jump, lambda scene: _struck(scene)[0]),
+            observables.fitted("jump of omega", "rad/s", _jump, lambda scene: _jump(scene, _struck(scene))),
             Observable(
-                "hinge impulse", "N s", "rate", _other_impulse, lambda scene, b: FORCE * (END - START)
+                "hinge impulse",
+                "N s",
+                "rate",
+                _other_impulse,
+                lambda scene, b: FORCE * (END - START),
+                lambda scene: hinge_impulse(scene, _struck(scene)),
             ),
             reactions.force(),
             Observable("borne of the blow", "N", "state", _other_share, lambda scene, b: FORCE),
@@ -148,10 +154,10 @@ def _tensor(scene: Scene) -> Array:
     )
 
 
-def _struck(scene: Scene) -> tuple[float, float]:
-    """Jump of θ̇ and impulse of the hinge, were the blow a moment's, on the body hanging."""
-    mass, arm, moment, distance = whole(scene)
-    return compound_pendulum.struck(mass, arm, moment, distance, FORCE * (END - START))
+@cache
+def _struck(scene: Scene) -> Trajectory:
+    """The exact motion where the blow sets in and where it ends."""
+    return _truth(scene, np.array([START, END]))
 
 
 def _blow(scene: Scene) -> Array:
