@@ -33,7 +33,9 @@ def constant(cells, observable):
 def looks(scene):
     """The scene, looked at ever more often."""
     bounces = any(not contact.friction for contact in scene.contacts)
-    shares = (1.0,) if bounces else (1.0, 1.04, 1.08, 1.13, 1.17, 1.21, 1.25, 1.3, 1.34, 1.38, 1.42, 1.46, 1.5)
+    shares = (
+        (1.0,) if bounces else (1.0, 1.04, 1.08, 1.13, 1.17, 1.21, 1.25, 1.3, 1.34, 1.38, 1.42, 1.46, 1.5)
+    )
     return [replace(scene, samples=round(share * scene.samples)) for share in shares]
 
 
