@@ -1,6 +1,6 @@
 """What is wrong where our equations of motion do not reach, as with contacts: by the scene's exact motion."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -118,12 +118,14 @@ def _changes(scene: Scene) -> Iterator[_Change]:
             yield _Change(f"moment I{k + 1} of body {body.name!r} is", "bodies", at, "inertia", k)
 
 
-def _fitted(change: _Change, effect: object, apart: Array) -> tuple[float, str] | None:
+def _fitted(
+    change: _Change, effect: Callable[[_Change, float], Array | None], apart: Array
+) -> tuple[float, str] | None:
     """By secants from 0: the part of ``apart`` that the best number leaves."""
     whole, x, best = float(np.linalg.norm(apart)), 0.0, (1.0, 0.0)
     for _ in range(ROUNDS):
         width = 1e-4 * max(abs(x), 0.1)
-        here, there = effect(change, x), effect(change, x + width)  # type: ignore[operator]
+        here, there = effect(change, x), effect(change, x + width)
         if here is None or there is None:
             break
         left = float(np.linalg.norm(apart - here)) / whole

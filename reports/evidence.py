@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..adapters.centred import centred
 from ..reference import quaternions, tree_schemes
 from ..reference.checked import Array
 from ..scenarios.equations import states
@@ -14,7 +15,7 @@ from ..scenarios.trajectory import Trajectory
 from .acceleration import expected
 from .cell import EPSILON, Cell
 from .fitting import size
-from .intervals import Intervals, centred
+from .intervals import Intervals
 from .order import extrapolated
 from .supposed import Model
 
@@ -88,7 +89,7 @@ class Evidence:
     @cached_property
     def model(self) -> Model:
         """The scene's own equations, as intervals take them."""
-        return Model.of(centred(self.scene), by_centres=True)
+        return Model.of(centred(self.scene).scene, by_centres=True)
 
     @cached_property
     def residual(self) -> Array:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from ..adapters.centred import centred
 from ..reference import equations_of_motion, quaternions, tree_schemes
 from ..reference.checked import Array
 from ..scenarios.blows import at_work
@@ -50,7 +51,7 @@ class Intervals:
         """Those of a run; ``None`` where contacts or burning masses act, which the equations lack."""
         if scene.contacts or scene.burning or told.provenance is None:
             return None
-        dt, central = told.provenance.dt, centred(scene)
+        dt, central = told.provenance.dt, centred(scene).scene
         state = coordinates(central, told)
         if state is None:
             return None
@@ -105,24 +106,6 @@ class Intervals:
             yield replace(model, forces=forces), np.flatnonzero([found == forces for found in acting])
         if not acting:
             yield model, np.arange(len(chosen))
-
-
-def centred(scene: Scene) -> Scene:
-    """``scene`` with the origins of its free bodies at their centres of mass, where engines step them.
-
-    Coordinates that do not come from `coordinates` do not belong to it.
-    """
-    offsets = {body.name: np.array(body.center_of_mass) for body in scene.bodies if _free(body)}
-    none = np.zeros(3)
-    bodies = tuple(
-        replace(
-            body,
-            center_of_mass=_tuple(np.array(body.center_of_mass) - offsets.get(body.name, none)),
-            position=_tuple(np.array(body.position) - offsets.get(body.parent or "", none)),
-        )
-        for body in scene.bodies
-    )
-    return replace(scene, bodies=bodies)
 
 
 def coordinates(scene: Scene, told: Trajectory) -> tuple[Array, Array] | None:
@@ -205,12 +188,3 @@ def unit_quaternions(scene: Scene, q: Array) -> Array:
             turn = result[:, at][:, -4:]
             turn /= np.linalg.norm(turn, axis=1, keepdims=True)
     return result
-
-
-def _free(body: Body) -> bool:
-    return any(joint.kind == "free" for joint in body.joints)
-
-
-def _tuple(vector: Array) -> tuple[float, float, float]:
-    x, y, z = vector.tolist()
-    return x, y, z

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..adapters.centred import centred
 from ..reference import equations_of_motion, joint_reactions, quaternions
 from ..reference.checked import Array
 from ..scenarios import reactions as looked_at
@@ -13,7 +14,7 @@ from ..scenarios.forces import forces_on
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
 from .cell import Cell
-from .intervals import centred, coordinates
+from .intervals import coordinates
 
 #: Of their size: two telling apart differ by far more, and rounding by far less.
 ALIKE = 1e-9
@@ -21,7 +22,7 @@ ALIKE = 1e-9
 
 def cause(cell: Cell) -> str:
     """What is wrong with the reactions told of a motion that is right; empty if nothing, or nothing known."""
-    told, scene = cell.trajectory, centred(cell.scene)
+    told, scene = cell.trajectory, centred(cell.scene).scene
     state = coordinates(scene, told) if scene.reactions else None
     if state is None:
         return ""

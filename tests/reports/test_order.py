@@ -73,6 +73,7 @@ def test_a_scheme_of_its_declared_order_passes(ahead, true, declared):
 def test_a_scheme_of_another_order_fails_be_it_lower_or_higher(ahead, true, declared):
     constant = 1e-3 / STEPS[0] ** true
     verdicts = orders(checked([replaced(ahead(SCENE, dt, true, c=constant), order=declared) for dt in STEPS]))
+    assert verdicts
     for verdict in verdicts.values():
         assert verdict.status is Status.FAIL
         assert verdict.measured == pytest.approx(abs(true - declared), abs=0.01)
@@ -135,7 +136,9 @@ def test_noise_that_does_not_fall_with_the_step_is_no_order(ahead):
 
 
 def test_without_any_error_there_is_no_order(ahead):
-    for verdict in orders(checked([ahead(SCENE, dt, c=0.0) for dt in STEPS])).values():
+    verdicts = orders(checked([ahead(SCENE, dt, c=0.0) for dt in STEPS]))
+    assert verdicts
+    for verdict in verdicts.values():
         assert verdict.status is Status.PASS
         assert verdict.message == "exact to round-off at all 5 steps: there is no order to measure"
 
