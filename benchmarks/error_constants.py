@@ -5,7 +5,8 @@
 C is the largest error over dt^order on the ladder of each scheme, rounded up to two digits; where no
 step is clear of round-off it is 0, and round-off alone is allowed. What is fitted to a motion, and what is
 largest between two looks, depends on how often it is looked at: C is the largest over the scene's own looks
-and up to half as many more, but where something bounces, which the scene wants in one part of a step.
+and up to half as many more, but where something bounces, which the scene wants in one part of a step, and
+where a blow sets in and ends, which it must at a look: there at half as many more alone.
 """
 
 import sys
@@ -36,6 +37,8 @@ def looks(scene):
     shares = (
         (1.0,) if bounces else (1.0, 1.04, 1.08, 1.13, 1.17, 1.21, 1.25, 1.3, 1.34, 1.38, 1.42, 1.46, 1.5)
     )
+    if "blow" in scene.features:
+        shares = (1.0, 1.5)  # between two looks no blow may set in
     return [replace(scene, samples=round(share * scene.samples)) for share in shares]
 
 

@@ -44,9 +44,10 @@ def varied(scene, chance):
     """The scene looked at some other number of times, at steps that this makes no coarser.
 
     Where something bounces the steps stay as they are: the scene chose them so that the blow falls in the
-    same part of each.
+    same part of each; and where a force acts for a while, which sets in and ends at looks.
     """
-    if chance is None or any(not contact.friction for contact in scene.contacts):
+    bounces = any(not contact.friction for contact in scene.contacts)
+    if chance is None or bounces or "blow" in scene.features:
         return scene
     samples = max(1, round(scene.samples * chance.uniform(*LOOKS)))
     between = scene.duration / samples
