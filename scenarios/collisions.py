@@ -66,10 +66,10 @@ def _scheme_motion(scene: Scene, twin: str, dt: float, t: Array) -> Trajectory |
 
 
 def _blow(scene: Scene, motion: Trajectory) -> float:
-    """1 + e: the change of the relative velocity, along itself, over the velocity of meeting."""
+    """1 + e: the change of the relative velocity, along itself, over the velocity of meeting; 0 if none."""
     before, after = (np.diff(motion.velocity[i], axis=0)[0] for i in (0, -1))
     change = before - after
-    return float(change @ change / (before @ change))
+    return float(change @ change / (before @ change)) if change.any() else 0.0
 
 
 def _kept(scene: Scene, motion: Trajectory) -> float:

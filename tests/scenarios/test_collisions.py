@@ -102,3 +102,10 @@ def test_smooth_bodies_that_rub_are_seen():
     omega = m.omega.copy()
     omega[5:, 0] += 1e-3
     assert {"omega", "angular momentum"} <= judged(ELASTIC, replace(m, omega=omega))
+
+
+@EVERY
+def test_spheres_that_pass_through_each_other_are_seen(scene):
+    truth = scene.truth(scene, scene.sample_times())
+    missed = replace(truth, velocity=np.broadcast_to(truth.velocity[:1], truth.velocity.shape))
+    assert "1 + e" in judged(scene, missed)
