@@ -13,7 +13,6 @@ from collections import Counter, defaultdict
 from pathlib import Path
 
 import numpy as np
-from poinsot.adapters.timing import REPEATS, SPAN
 from poinsot.scenarios.registry import scenes
 
 from poinsot import cost, estimate
@@ -100,10 +99,15 @@ def clock(found, phase):
     return found["phases"].get(phase, {"seconds": 0.0})["seconds"]
 
 
+def processor(found, phase):
+    """Seconds of a phase of the processor: what it takes where nothing else runs."""
+    return found["phases"].get(phase, {"cpu_seconds": 0.0})["cpu_seconds"]
+
+
 def rates(runs):
     """What each kind of work took in these runs, as TOML."""
     cells = [cell for run in runs for cell in run["cells"] if cell["spent"]]
-    timing = sum(clock(run, "timing") for run in runs)
+    timing = sum(processor(run, "timing") for run in runs)
     lines = [
         "# Seconds of the processor that pieces of a run take, for the estimate before one. Written by",
         "# `python benchmarks/run_cost.py RUN ... --rates`. `pulse` is how fast that machine was.",
@@ -116,7 +120,11 @@ def rates(runs):
             lines += ["", f'[{table}."{name}"]', *(f"{key} = {value:.3g}" for key, value in found.items())]
     for table, (name, matrix, seconds) in {
         "judging": ("scene", *_judging(runs)),
-        "report": ("start", [(1, len(run["cells"])) for run in runs], [clock(run, "report") for run in runs]),
+        "report": (
+            "start",
+            [(1, len(run["cells"])) for run in runs],
+            [processor(run, "report") for run in runs],
+        ),
     }.items():
         first, each = np.linalg.lstsq(np.array(matrix, float), np.array(seconds), rcond=None)[0]
         lines += ["", f"[{table}]", f"{name} = {first:.3g}", f"cell = {each:.3g}"]
@@ -139,30 +147,35 @@ def _steps(cells):
 
 
 def _engines(cells):
-    """Seconds of what is done once a cell, once a sample, and only where a cell is run twice, by engine."""
+    """Seconds of what is done once a cell, once a sample, and only in some cells, by engine."""
     by_engine = defaultdict(list)
     for cell in cells:
-        by_engine[cell["engine"]].append((scenes()[cell["scene"]], cell["repeats"], cell["spent"]))
+        by_engine[cell["engine"]].append(cell | {"scene": scenes()[cell["scene"]]})
     return {engine: _engine(of) for engine, of in by_engine.items()}
 
 
 def _engine(cells):
-    built = np.mean([spent["building"] for _, _, spent in cells])
-    looked = sum(spent["rest"] for *_, spent in cells) / sum(scene.samples for scene, *_ in cells)
-    twice = [(scene, spent) for scene, repeats, spent in cells if repeats > 1]
-    sought = [spent["stable step"] for scene, spent in twice if scene.stable_step]
+    looked = sum(cell["spent"]["rest"] for cell in cells) / sum(cell["scene"].samples for cell in cells)
+    asked = [cell for cell in cells if cell["asked"]]
     again = [
-        spent["accelerations"] + spent["repeat"] - spent["stepping"] - looked * scene.samples
-        for scene, spent in twice
+        cell["spent"]["repeat"] - cell["spent"]["stepping"] - looked * cell["scene"].samples
+        for cell in cells
+        if cell["repeats"] > 1
     ]
     once = "loading", "building", "setup", "logging"
     return {
-        "built": built,
-        "whole": np.mean([sum(spent[part] for part in once) for *_, spent in cells]),
+        "built": _mean(cell["spent"]["building"] for cell in cells),
+        "whole": _mean(sum(cell["spent"][part] for part in once) for cell in cells),
         "sample": looked,
-        "repeated": np.mean(again) if again else 0.0,
-        "stable": np.mean(sought) if sought else 0.0,
+        "repeated": max(0.0, _mean(again)),
+        "asked": _mean(cell["spent"]["accelerations"] for cell in asked),
+        "stable": _mean(cell["spent"]["stable step"] for cell in asked if cell["scene"].stable_step),
     }
+
+
+def _mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else 0.0
 
 
 def _judging(runs):
@@ -176,11 +189,10 @@ def _judging(runs):
 
 
 def _timed(cell, steps, engines):
-    """Seconds that timing a cell would take if every repeat took as long as it is meant to."""
+    """Seconds that timing a cell would take if no repeat of it were disturbed."""
     scene = scenes()[cell["scene"]]
     step = steps[f"{cell['engine']} {cell['scheme']}"][estimate.kind(scene)]
-    once = min(SPAN, scene.samples * scene.steps_per_sample(cell["dt"]) * step)
-    return (REPEATS + 1) * (engines[cell["engine"]]["built"] + once)
+    return estimate.timing(scene, cell["dt"], estimate.Work(step, engines[cell["engine"]]["built"], 0.0))
 
 
 def main(*arguments):

@@ -71,6 +71,7 @@ class Cost:
             "scheme": asked.scheme,
             "dt": asked.dt,
             "repeats": asked.repeats,
+            "asked": asked.asked,
             "timed": asked in self.timed,
             "spent": _rounded(outcome.spent),
         }

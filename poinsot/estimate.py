@@ -101,7 +101,7 @@ def estimate(
     judging = rates["judging"]
     phases = {
         "simulating": _shared([expected[r].whole for r in in_turn(laid)], at_once),
-        "timing": [_timed(r, expected[r]) for r in timed],
+        "timing": [rates["timing"]["factor"] * timing(scenes()[r.scene], r.dt, expected[r]) for r in timed],
         "steps beyond the ladders": _shared(_beyond(laid, timed), at_once),
         "judging": _shared([judging["scene"] + judging["cell"] * cells for cells in by_scene], at_once),
         "report": [rates["report"]["start"] + rates["report"]["cell"] * len(laid.records)],
@@ -146,8 +146,9 @@ def work(request: Request) -> Work:
     stepping = scene.samples * scene.steps_per_sample(request.dt) * step
     looking = scene.samples * cell["sample"]
     whole = cell["whole"] + request.repeats * (stepping + looking)
-    if request.repeats > 1:
-        whole += cell["repeated"] + (cell["stable"] if scene.stable_step else 0.0)
+    whole += cell["repeated"] * (request.repeats - 1)
+    if request.asked:
+        whole += cell["asked"] + (cell["stable"] if scene.stable_step else 0.0)
     return Work(step, cell["built"], whole)
 
 
@@ -178,12 +179,12 @@ def _shared(pieces: Sequence[float], at_once: int) -> list[float]:
     return [recorded()["start"] + share[0], *share[1:]]
 
 
-def _timed(request: Request, expected: Work) -> float:
-    """Seconds that timing a cell takes."""
-    scene = scenes()[request.scene]
-    steps = scene.samples * scene.steps_per_sample(request.dt)
-    once = expected.built + min(SPAN, steps * expected.step)
-    return float(recorded()["timing"]["factor"] * (REPEATS + 1) * once)
+def timing(scene: Scene, dt: float, expected: Work) -> float:
+    """Seconds that timing a cell takes if none of its repeats is disturbed."""
+    run = scene.samples * scene.steps_per_sample(dt) * expected.step
+    once = min(SPAN, run)
+    builds = REPEATS if scene.contacts else math.ceil(REPEATS * once / run)
+    return (1 + builds) * expected.built + (1 + REPEATS) * once
 
 
 def _beyond(laid: Plan, timed: Sequence[Request]) -> list[float]:

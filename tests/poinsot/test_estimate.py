@@ -82,8 +82,21 @@ def test_a_cell_takes_what_its_steps_and_repeats_take(own):
     coarse, fine = (work(Request("heavy_top[moderate]", own, "Euler", dt)) for dt in (1e-3, 1e-4))
     steps = 9 * scenes()["heavy_top[moderate]"].duration / 1e-3
     assert fine.whole - coarse.whole == pytest.approx(steps * coarse.step)
-    twice = work(Request("heavy_top[moderate]", own, "Euler", 1e-3, repeats=2))
-    assert twice.whole > coarse.whole
+    twice, asked = (
+        work(Request("heavy_top[moderate]", own, "Euler", 1e-3, **more))
+        for more in ({"repeats": 2}, {"asked": True})
+    )
+    assert min(twice.whole, asked.whole) > coarse.whole
+
+
+def test_timing_builds_anew_where_a_repeat_does_not_fit_into_the_run_or_bodies_touch():
+    work_of = module.Work(step=1e-6, built=1.0, whole=0.0)
+    top, hoop = scenes()["heavy_top[moderate]"], scenes()["rolling[hoop]"]
+    steps = [top.samples * top.steps_per_sample(dt) for dt in (1e-3, 1e-5)]
+    assert steps[0] * 1e-6 < module.SPAN < steps[1] * 1e-6 / 10
+    assert module.timing(top, 1e-3, work_of) == pytest.approx(11 + 11 * steps[0] * 1e-6)
+    assert module.timing(top, 1e-5, work_of) == pytest.approx(2 + 11 * module.SPAN)
+    assert module.timing(hoop, 1e-6, work_of) == pytest.approx(11 + 11 * module.SPAN)
 
 
 def test_forces_and_contacts_cost_more():
