@@ -71,7 +71,8 @@ def told(folder):
     if expected:
         lines += [
             f"  expected {expected:.0f} s: {expected / alone - 1:+.0%} against that, "
-            f"{expected / wall - 1:+.0%} against the clock; {expected * found['crowding']:.0f} s as busy as the machine was before it: "
+            f"{expected / wall - 1:+.0%} against the clock; "
+            f"{expected * found['crowding']:.0f} s as busy as the machine was before it: "
             f"{expected * found['crowding'] / wall - 1:+.0%}",
             f"  expected and taken by phase: {by_phase(found)}",
         ]
