@@ -66,11 +66,11 @@ def told(folder):
     wall, workers, bare = found["seconds"], found["workers"], total["stepping"]
     checks = sum(total[part] for part in CHECKS)
     lines = [f"{folder}: {len(found['cells'])} cells, {wall:.1f} s by the clock on {workers} workers"]
-    alone, expected = undisturbed(found), sum(found["expected"].values())
-    lines.append(f"  {alone:.1f} s if it had had the cores to itself, by what the processor took")
+    own, expected = undisturbed(found), sum(found["expected"].values())
+    lines.append(f"  {own:.1f} s if it had had the cores to itself, by what the processor took")
     if expected:
         lines += [
-            f"  expected {expected:.0f} s: {expected / alone - 1:+.0%} against that, "
+            f"  expected {expected:.0f} s: {expected / own - 1:+.0%} against that, "
             f"{expected / wall - 1:+.0%} against the clock; "
             f"{expected * found['crowding']:.0f} s as busy as the machine was before it: "
             f"{expected * found['crowding'] / wall - 1:+.0%}",
@@ -83,8 +83,8 @@ def told(folder):
     lines += [
         f"  {whole:8.2f} s         in all",
         f"  by the clock / (bare steps / {workers}): {wall * workers / bare:.2f}; "
-        f"with the cores to itself {alone * workers / bare:.2f}, "
-        f"without timing {(alone - processor(found, 'timing')) * workers / bare:.2f}",
+        f"with the cores to itself {own * workers / bare:.2f}, "
+        f"without timing {(own - processor(found, 'timing')) * workers / bare:.2f}",
         f"  the checks add {checks / (whole - checks):.0%} to everything else ({checks:.1f} s), "
         f"{checks / (whole - checks - alone.get('timing', 0)):.0%} to everything but timing",
     ]
