@@ -24,6 +24,7 @@ from .fitting import Explanation, Residual, fitted, fitted_together, size
 from .intervals import Intervals
 from .plain_mistakes import alternatives
 from .signs import plain, weaker
+from .struck import struck_otherwise
 from .supposed import Model
 from .suspects import several, suspects
 from .tellings import tellings
@@ -273,6 +274,7 @@ def _nothing(cells: Sequence[Cell], failed: Sequence[Verdict]) -> str:
 
 #: Where causes are looked for, the surest ways first; the first to find one speaks.
 _LOOKS: tuple[Callable[[Evidence], str | tuple[str, ...]], ...] = (
+    struck_otherwise,
     plain,
     displaced_centres,
     _at_states,
