@@ -12,10 +12,12 @@ import pytest
 from poinsot.adapters import pybullet_loading
 from poinsot.adapters.engine import EngineError
 from poinsot.adapters.pybullet_ import PyBullet
+from poinsot.adapters.simulate import simulate
 from poinsot.reference import equations_of_motion
 from poinsot.reference.errors import InputError
 from poinsot.reports.setup import expected
 from poinsot.scenarios.body import Body, Joint, diagonal
+from poinsot.scenarios.registry import scenes
 from scipy.spatial.transform import Rotation
 
 SCHEMES = {scheme.name: scheme for scheme in PyBullet.schemes}
@@ -797,15 +799,41 @@ def test_engines_do_not_share_a_world(build, free, random_tree):
         other.close()
 
 
-def test_closing_lets_go_of_every_world_and_may_be_done_twice(free):
+def closed(scene):
+    """The clients of an engine that has built a scene, been read back and closed, twice."""
     engine = PyBullet()
-    engine.build(free(), SCHEMES[REDUCED], 1e-3)
+    engine.build(scene, SCHEMES[REDUCED], scene.dt)
     engine.readback()
     clients = list(engine._clients.values())
     engine.close()
     engine.close()
     assert len(clients) == 2
-    assert not any(p.isConnected(client) for client in clients)
+    assert not engine._clients
+    return clients
+
+
+def test_closing_leaves_the_clients_to_the_next(free):
+    first = closed(free())
+    assert all(p.isConnected(client) for client in first)
+    assert set(closed(free())) == set(first)
+
+
+def test_closing_ends_the_clients_whose_solver_was_set_for_contacts():
+    before = closed(scenes()["heavy_top[fast]"])
+    assert not any(p.isConnected(client) for client in closed(scenes()["rolling[hoop]"]))
+    assert not any(p.isConnected(client) for client in before)  # the same two, taken up and set
+
+
+def test_a_client_that_was_used_gives_the_bits_of_a_new_one():
+    scene = scenes()["heavy_top[fast]"]
+    closed(scenes()["rolling[hoop]"])
+    new, _ = simulate(scene, PyBullet, SCHEMES[REDUCED], scene.dt, repeats=2)
+    for other in ("free_symmetric_top[defaults]", "co2_chain[mixture]", "sleeping_top[0.9]"):
+        closed(scenes()[other])
+    again, _ = simulate(scene, PyBullet, SCHEMES[REDUCED], scene.dt, repeats=2)
+    assert {*again.provenance.digests, *new.provenance.digests} == {new.provenance.digests[0]}
+    assert again.provenance.accelerations == new.provenance.accelerations
+    assert again.provenance.setup == new.provenance.setup
 
 
 # What is moved
