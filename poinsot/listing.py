@@ -20,9 +20,11 @@ SHOWN = 12
 def printed(*, as_json: bool) -> int:
     """Print what there is to run, as JSON or in words; 0, as a command that went well ends."""
     gc.disable()  # it would look through thousands of new objects, all of which stay
-    print(json_text() if as_json else as_text())  # noqa: T201 (this is what the command is for)
-    gc.freeze()  # nor need it look through them when the process ends
-    gc.enable()
+    try:
+        print(json_text() if as_json else as_text())  # noqa: T201 (this is what the command is for)
+        gc.freeze()  # nor need it look through them when the process ends
+    finally:
+        gc.enable()
     return 0
 
 

@@ -34,7 +34,7 @@ def struck(variant: str, mass: float, tensor: Matrix, axis: Vector, arm: float) 
 
     It hangs by a hinge along ``axis``, ``arm`` [m] above its centre.
     """
-    moment = inertia.about_axis(np.asarray(tensor), axis) + mass * arm**2
+    moment = float(np.array(axis) @ np.array(tensor) @ axis) + mass * arm**2
     # A peg's mass moves the centre of percussion of the whole only for what it has of a moment of its own.
     distance = PLACES[variant] * (moment + PEG_MOMENT) / (mass * arm)
     hung = Body(

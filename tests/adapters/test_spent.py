@@ -54,7 +54,7 @@ def test_a_new_piece_of_work_begins_at_nothing():
 
 def test_the_parts_of_a_cell_are_all_of_it(tmp_path):
     pytest.importorskip("mujoco")
-    request = Request("stiff_spring", "mujoco", "Euler", 1e-5, repeats=2)
+    request = Request("stiff_spring", "mujoco", "Euler", 1e-5, repeats=2, asked=True)
     runner._logged(request, tmp_path)  # what is loaded once is not of the cell
     clock = perf_counter()
     _, _, found = runner._logged(request, tmp_path)
