@@ -121,7 +121,7 @@ def rates(runs):
     lines = [
         "# Seconds of the processor that pieces of a run take, for the estimate before one. Written by",
         "# `python benchmarks/run_cost.py RUN ... --rates`. `pulse` is how fast that machine was.",
-        f"pulse = {min(run['pulse'] for run in runs):.3g}",
+        f"pulse = {np.median([run['pulse'] for run in runs]):.3g}",
         f"start = {np.mean([parts(run)[2] / run['workers'] / 2 for run in runs]):.3g}",
     ]
     steps, per_engine = _steps(cells), _engines(cells)
