@@ -24,7 +24,7 @@ REPEATS = 2
 class Extent(Enum):
     """How much of every scene a run takes in: its variants, and steps beside its own."""
 
-    QUICK = "each scene at its own step: orders, limits and the error over the step are left out"
+    QUICK = "each scene at its own step, once: orders, limits, errors over the step, determinism are left out"
     USUAL = (
         "ladders, and a second run for the same bits, of the first variant of each scene; `--full` takes "
         "those of all variants"
@@ -73,7 +73,8 @@ def plan(
                 continue
             for scheme in engine.schemes:
                 if not schemes or scheme.name in schemes:
-                    twice = bool(steps) or extent is not Extent.USUAL or first[scene.name] == scene.full_name
+                    is_first = extent is Extent.USUAL and first[scene.name] == scene.full_name
+                    twice = bool(steps) or is_first or extent in (Extent.WHOLE, Extent.FULL)
                     wanted = steps or _wanted(scene, scheme, extent, first)
                     _add(laid, scene, spec, engine, scheme, wanted, twice)
     everything = len(scenes) == len(all_scenes()) and len(loaded) == len(registry.names())
