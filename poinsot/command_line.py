@@ -57,7 +57,7 @@ def run(
     timing
         Whether to time the engines after they have been simulated.
     quick
-        The first variant of each scene at its own step alone: no ladders of steps, so no orders.
+        The first variant of each scene at its own step alone, once: no ladders of steps, so no orders.
     full
         Ladders of steps of every variant, every step timed, and the error over run time over three
         decades of steps. Of scenes that are named every ladder is run anyway; else those of the first

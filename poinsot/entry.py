@@ -15,6 +15,9 @@ def main() -> int:
             return listing.printed(as_json="--json" in arguments)
         except PoinsotError:
             pass  # The whole command line comes to it again, and tells what it means.
+        except KeyboardInterrupt:
+            sys.stderr.write("poinsot: interrupted\n")
+            return 130
     from . import command_line
 
     return command_line.main(arguments)

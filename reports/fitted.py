@@ -1,6 +1,6 @@
 """What a rate is found to be in a motion, and how well the looks at it tell that."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import NamedTuple
 
 from ..scenarios.observables import Observable
@@ -41,14 +41,5 @@ def _difference(cell: Cell, observable: Observable, motion: Trajectory, truth: T
 
 def _halved(motion: Trajectory) -> Trajectory:
     """Every other sample, from the first on."""
-    names = (
-        "t",
-        "position",
-        "quaternion",
-        "velocity",
-        "omega",
-        "joint_position",
-        "joint_velocity",
-        "reaction",
-    )
-    return replace(motion, **{name: getattr(motion, name)[::2] for name in names})
+    arrays = [part.name for part in fields(motion) if part.name != "provenance"]
+    return replace(motion, **{name: getattr(motion, name)[::2] for name in arrays})

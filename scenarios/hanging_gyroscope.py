@@ -151,8 +151,8 @@ def _wheel_on_a_rope(
             observables.omega(),
             observables.position(),
             observables.velocity(),
-            observables.rate("precession of the rope", _rope_from_above, lambda scene: abs(rates[0])),
-            observables.rate("precession of the axle", _axle_from_above, lambda scene: abs(rates[1])),
+            observables.rate("precession of the rope", _rope_from_above, lambda scene: rates[0]),
+            observables.rate("precession of the axle", _axle_from_above, lambda scene: rates[1]),
             observables.invariant("tilts", "rad", _tilts, lambda scene, b: float(np.pi))
             if variant == "steady"
             else _tilting(),

@@ -86,7 +86,8 @@ def _asteroid(variant: str, moments: Vector, words: str) -> Scene:
             observables.orientation(),
             observables.omega(),
             observables.position(),
-            observables.rate("polhode", _polhode, _polhode_rate),
+            # Seen from the tip of the axis, the polhode is run through clockwise.
+            observables.rate("polhode", _polhode, lambda scene: -_polhode_rate(scene)),
             observables.rate("herpolhode", _herpolhode, _herpolhode_rate),
             _radius(0, "herpolhode, least radius"),
             _radius(1, "herpolhode, greatest radius"),

@@ -270,9 +270,12 @@ def _plain(part: Any) -> dict[str, Any]:
     return {name: value for name, value in part.__dict__.items() if name != "solids" or value}
 
 
-def every_scheme(rows: Mapping[str, tuple[float, ...]], like: str) -> dict[str, tuple[float, ...]]:
+def every_scheme(
+    rows: Mapping[str, tuple[float, ...]], like: str, *more: str
+) -> dict[str, tuple[float, ...]]:
     """Error constants ``rows`` with those of MuJoCo's own twins added.
 
-    On the scene at hand its ``implicitfast`` and its ``discrete`` are the scheme ``like``, bit for bit.
+    On the scene at hand its ``implicitfast`` and its ``discrete`` are the scheme ``like``, bit for bit; those
+    of ``more`` schemes were measured to be alike in all digits kept.
     """
-    return {**rows, "implicitfast": rows[like], "discrete": rows[like]}
+    return {**rows, **dict.fromkeys(("implicitfast", "discrete", *more), rows[like])}

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..reference import kepler_orbit
+from ..reference import kepler_orbit, tides
 from ..reference.checked import Array
 from . import observables, pictures, spheres
 from .forces import Center
@@ -43,7 +43,10 @@ def _tide(number: int, name: str, outward: float) -> Observable:
         fit = np.polynomial.Polynomial.fit(motion.t, parting, DEGREE)
         return float(fit.deriv()(0.0))
 
-    fitted = observables.fitted(f"tide at the {name} point", "m/s²", value, lambda scene: 0.0)
+    def exact(scene: Scene) -> float:
+        return tides.tide_at_named_points(GM, DISTANCE, RADIUS)[number - 1]
+
+    fitted = observables.fitted(f"tide at the {name} point", "m/s²", value, exact)
     # The tide is the difference of two pulls: its round-off is theirs.
     return replace(fitted, scale=lambda scene, b: GM / DISTANCE**2)
 

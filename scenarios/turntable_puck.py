@@ -127,7 +127,7 @@ SCENES = (
             observables.velocity(),
             observables.orientation(),
             observables.omega(),
-            observables.rate("turning of the puck's path", _seen_turning, lambda scene: RATE),
+            observables.rate("turning of the puck's path", _seen_turning, lambda scene: -RATE),
             observables.rate("turning of the table", _hinge, lambda scene: RATE),
             observables.energy(),
             observables.momentum(),

@@ -1,6 +1,6 @@
 """What is fitted to a motion: its value, its closed form, and how well the looks tell it."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -66,3 +66,16 @@ def test_every_rate_has_a_closed_form_and_can_be_told_from_half_the_looks(name):
         found = fitted(looked, rate)
         assert found.value == found.exact
         assert 0 < found.uncertainty <= 1e-12 * looked.scale(rate)
+
+
+@pytest.mark.parametrize("name", scenes())
+def test_a_rate_goes_the_way_that_its_closed_form_says(name):
+    scene = scenes()[name]
+    motion = scene.truth(scene, scene.sample_times())
+    held = [part.name for part in fields(motion) if part.name not in ("t", "provenance")]
+    still = replace(motion, **{part: np.repeat(getattr(motion, part)[:1], len(motion.t), 0) for part in held})
+    for rate in scene.observables:
+        if rate.kind == "rate" and rate.unit == "rad/s":
+            # Over the part of a turn that a run shows, an uneven one is faster or slower than on the whole.
+            turned = rate.difference(scene, motion, still)[0, 0]
+            assert 0.4 < turned / rate.exact(scene) < 2.5, rate.name

@@ -27,6 +27,8 @@ def test_what_is_fitted_to_the_truth_is_the_tide_at_the_start(number):
     found = fitted(scenes()["tides"])[number]
     # The polynomial is cut off at its degree.
     assert found == pytest.approx(exact()[number], rel=1e-4)
+    named = {o.name: o for o in scenes()["tides"].observables}
+    assert named[f"tide at the {POINTS[number]} point"].exact(scenes()["tides"]) == exact()[number]
 
 
 def test_the_tide_stretches_twice_as_much_as_it_squeezes():
