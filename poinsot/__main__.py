@@ -1,8 +1,6 @@
 """``python -m poinsot``: the command line."""
 
-import sys
-
-from .entry import main
+from .entry import process
 
 if __name__ == "__main__":
-    sys.exit(main())
+    process()

@@ -1,6 +1,5 @@
 """What there is to run and to sweep, and how a run ended, in words for a terminal and as JSON."""
 
-import gc
 import json
 from collections import Counter
 from collections.abc import Mapping
@@ -19,12 +18,7 @@ SHOWN = 12
 
 def printed(*, as_json: bool) -> int:
     """Print what there is to run, as JSON or in words; 0, as a command that went well ends."""
-    gc.disable()  # it would look through thousands of new objects, all of which stay
-    try:
-        print(json_text() if as_json else as_text())  # noqa: T201 (this is what the command is for)
-        gc.freeze()  # nor need it look through them when the process ends
-    finally:
-        gc.enable()
+    print(json_text() if as_json else as_text())  # noqa: T201 (this is what the command is for)
     return 0
 
 

@@ -11,10 +11,15 @@ Array = npt.NDArray[np.float64]
 
 #: Distance from unit length up to which a quaternion counts as one [1]; it is then normalised.
 UNIT_TOLERANCE = 1e-9
+#: Distance from 1 to the next double [1].
+EPSILON = float(np.finfo(np.float64).eps)
 
 
 def finite(name: str, value: npt.ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
     """``value`` as a finite float64 array, of ``shape`` if one is given (-1 matches any length)."""
+    # Scenes are made of thousands of short tuples of floats, which need no look at types and shapes.
+    if isinstance(value, tuple) and shape == (len(value),) and all(map(_plain, value)):
+        return np.array(value)
     try:
         given = np.asarray(value)
         # numpy would read the text "1", take true for 1 and drop an imaginary part.
@@ -102,12 +107,16 @@ def principal_moments(name: str, value: npt.ArrayLike, rounding: float = 4.0) ->
     if least <= 0:
         raise InputError(f"{name}: got {moments.tolist()}, expected three moments above 0")
     others = least + middle
-    if largest > others * (1 + rounding * np.finfo(np.float64).eps):
+    if largest > others * (1 + rounding * EPSILON):
         raise InputError(
             f"{name}: got {moments.tolist()}, whose largest exceeds the sum of the other two, {others}; "
             "no body has such moments"
         )
     return moments
+
+
+def _plain(part: object) -> bool:
+    return type(part) is float and math.isfinite(part)
 
 
 def _fits(got: tuple[int, ...], expected: tuple[int, ...]) -> bool:

@@ -97,14 +97,13 @@ class Body:
         finite(f"body {self.name!r} position", self.position, (3,))
         unit_quaternion(f"body {self.name!r} quaternion", self.quaternion)
         inertia = finite(f"body {self.name!r} inertia", self.inertia, (3, 3))
-        if (inertia != inertia.T).any():
+        (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = inertia.tolist()
+        if (xy, xz, yz) != (yx, zx, zy):
             raise InputError(
                 f"body {self.name!r} inertia: got {inertia.tolist()}, expected a symmetric tensor"
             )
-        diagonal = np.count_nonzero(inertia) == np.count_nonzero(inertia.diagonal())
-        moments = inertia.diagonal() if diagonal else np.linalg.eigvalsh(inertia)
-        if not diagonal:  # a moment of 0 comes out as a rounding of the others
-            moments = np.where(moments > TURNED * np.finfo(np.float64).eps * moments[2], moments, 0.0)
+        diagonal = not (xy or xz or yz)
+        moments = (xx, yy, zz) if diagonal else _moments(inertia)
         principal_moments(f"body {self.name!r} inertia", moments, 4 if diagonal else TURNED)
         if any(joint.kind == "free" for joint in self.joints) and (len(self.joints) > 1 or self.parent):
             raise InputError(
@@ -148,3 +147,9 @@ def diagonal(I1: float, I2: float, I3: float) -> Matrix:
         (0.0, number("I2", I2), 0.0),
         (0.0, 0.0, number("I3", I3)),
     )
+
+
+def _moments(inertia: Array) -> tuple[float, ...]:
+    """Principal moments of a tensor with products; one of 0 would come out as a rounding of the others."""
+    moments = np.linalg.eigvalsh(inertia)
+    return tuple(np.where(moments > TURNED * np.finfo(np.float64).eps * moments[2], moments, 0.0).tolist())

@@ -6,6 +6,8 @@ Catches what no other scene can, as those tell the engine the inertia: one that 
 leaves out its density, its place or its turn, or puts a box around it, even if it reads back what was asked.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..reference import quaternions, schemes
@@ -92,13 +94,13 @@ def _measured(which: int, wire: str) -> Observable:
 
 
 def _twisted(variant: str, words: str, *solids: Solid) -> Scene:
+    body = of_solids("", solids, (), quaternion=HUNG)
     bodies = tuple(
-        of_solids(
-            f"on {wire}",
-            solids,
-            (Joint(f"wire along {wire}", "hinge", axis, stiffness=STIFFNESS),),
+        replace(
+            body,
+            name=f"on {wire}",
+            joints=(Joint(f"wire along {wire}", "hinge", axis, stiffness=STIFFNESS),),
             position=(float(number), 0.0, 0.0),
-            quaternion=HUNG,
         )
         for number, (wire, axis) in enumerate(WIRES.items())
     )
