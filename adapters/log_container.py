@@ -5,6 +5,7 @@ take here, so whole chunks of ready message records are put into mcap's own reco
 The format is https://mcap.dev/spec.
 """
 
+import struct
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from typing import IO
@@ -24,7 +25,6 @@ from mcap.records import (
     Footer,
     Header,
     McapRecord,
-    Message,
     Metadata,
     MetadataIndex,
     Schema,
@@ -35,6 +35,11 @@ from mcap.records import (
 MAGIC = b"\x89MCAP0\r\n"
 #: A full chunk before compression [bytes]: small enough to seek in, large enough to compress.
 CHUNK = 96 * 1024
+
+#: What a message record begins with: opcode, length of what follows, channel, sequence and both times.
+_MESSAGE = struct.Struct("<BQHIQQ")
+#: How long the fields before the data are, opcode and length aside [bytes].
+_FIELDS = _MESSAGE.size - 9
 
 Times = npt.NDArray[np.int64]
 
@@ -103,13 +108,13 @@ class Container:
 
     def messages(self, channel: int, times: Sequence[int], payloads: Iterable[bytes]) -> None:
         """Put down encoded messages of any length, logged at ``times`` [ns]."""
-        builder, offsets, first = RecordBuilder(), list[int](), 0
+        records, offsets, first = bytearray(), list[int](), 0
         for place, (time, data) in enumerate(zip(times, payloads, strict=True)):
-            offsets.append(builder.count)
-            Message(channel, time, data, publish_time=time, sequence=place).write(builder)
-            if builder.count > CHUNK or place + 1 == len(times):
-                self._chunk(channel, np.array(times[first : place + 1]), builder.end(), np.array(offsets))
-                offsets, first = [], place + 1
+            offsets.append(len(records))
+            records += _MESSAGE.pack(Opcode.MESSAGE, len(data) + _FIELDS, channel, place, time, time) + data
+            if len(records) > CHUNK or place + 1 == len(times):
+                self._chunk(channel, np.array(times[first : place + 1]), bytes(records), np.array(offsets))
+                records, offsets, first = bytearray(), [], place + 1
 
     def finish(self) -> None:
         """Write the end of the data, the summary with its offsets, and the footer."""

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
 from . import log_shapes
-from .log_primitives import Part, xyz
+from .log_primitives import Part
 from .log_schema import FrameTransform, SceneUpdate
 
 #: A viewer's frames: up to so many a simulated second, and in a log, and transforms in all.
@@ -20,6 +20,8 @@ FRAMES_PER_SECOND, FRAMES, TRANSFORMS = 50, 300, 3000
 #: No shape is wider than this makes it [m].
 FARTHEST = 1e15
 WORLD = "world"
+#: Nanoseconds in a second.
+NANOS = 1_000_000_000
 
 
 def frames(t: npt.NDArray[np.float64], bodies: int) -> slice:
@@ -33,15 +35,15 @@ def transforms(scene: Scene, motion: Trajectory, times: list[int]) -> Iterator[b
 
     ``times`` [ns] has one entry for each sample of ``motion``, and bodies follow one another.
     """
-    for time, positions, quaternions in zip(times, motion.position, motion.quaternion, strict=True):
-        for body, position, quaternion in zip(scene.bodies, positions, quaternions, strict=True):
-            message = FrameTransform(
-                timestamp=_timestamp(time),
-                parent_frame_id=WORLD,
-                child_frame_id=body.name,
-                translation=xyz(position),
-                rotation=xyz(quaternion),
-            )
+    placed = np.concatenate([motion.position, motion.quaternion], axis=2).tolist()
+    # One message a body, filled anew each time: to make one takes five times as long.
+    messages = [FrameTransform(parent_frame_id=WORLD, child_frame_id=body.name) for body in scene.bodies]
+    for time, places in zip(times, placed, strict=True):
+        seconds, nanos = divmod(time, NANOS)
+        for message, numbers in zip(messages, places, strict=True):
+            stamp, at, turn = message.timestamp, message.translation, message.rotation
+            stamp.seconds, stamp.nanos = seconds, nanos
+            at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = numbers
             yield message.SerializeToString()
 
 
@@ -75,5 +77,5 @@ def _entity(name: str, time: int, parts: Sequence[Part], told: Mapping[str, str]
 
 
 def _timestamp(time: int) -> dict[str, int]:
-    seconds, nanos = divmod(time, 1_000_000_000)
+    seconds, nanos = divmod(time, NANOS)
     return {"seconds": seconds, "nanos": nanos}

@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Sequence
 from contextlib import nullcontext
+from math import isfinite
 from typing import Any, ClassVar
 
 import mujoco
@@ -20,6 +21,7 @@ from .engine import EngineError, Scheme, Setup, State
 from .mujoco_burning import Masses
 from .mujoco_contact import add_contacts, told
 from .mujoco_forces import Forces
+from .mujoco_looked import Look
 from .mujoco_mjcf import mjcf
 from .mujoco_parts import built
 from .mujoco_reactions import reactions
@@ -82,7 +84,7 @@ class MuJoCo:
             mujoco.set_mju_user_warning(lambda message: None)
         self._centred = centred(scene)
         self._scene = scene = self._centred.scene
-        self._scheme, self._steps = scheme, 0
+        self._scheme, self._dt, self._steps = scheme, dt, 0
         self._spec, bodies, joints = _spec(scene, scheme, dt)
         self._model = _compiled(self._spec, scene.full_name)
         _keep_small_offsets(self._model)
@@ -90,12 +92,11 @@ class MuJoCo:
         self._forces = Forces(mujoco, scene, self._bodies) if scene.forces else None
         self._forced = self._forces.acting if self._forces else nullcontext
         self._masses = Masses(mujoco, scene, self._model, self._bodies, dt) if scene.burning else None
-        self._data, self._scratch = mujoco.MjData(self._model), mujoco.MjData(self._model)
-        self._data.qpos[self._q], self._data.qvel[self._v] = scene.q0, scene.v0
+        self._start()
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps in MuJoCo's own loop."""
-        for count, forces in stretches(self._scene.forces, self._model.opt.timestep, self._steps, n):
+        for count, forces in stretches(self._scene.forces, self._dt, self._steps, n):
             with self._forced(forces):
                 if self._masses is None:
                     mujoco.mj_step(self._model, self._data, nstep=count)
@@ -107,23 +108,8 @@ class MuJoCo:
 
     def state(self) -> State:
         """Where everything is now. Raises ``EngineError`` if MuJoCo warned, reset itself or is not finite."""
-        model, data, bodies = self._model, self._scratch, self._bodies
-        # A step leaves the kinematics of the state before it; a scratch copy leaves the motion alone.
-        data.qpos[:], data.qvel[:] = self._data.qpos, self._data.qvel
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        mujoco.mj_comVel(model, data)
-        speeds = np.empty((len(bodies), 6))
-        for row, body in zip(speeds, bodies, strict=True):
-            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, row, 0)
-        state = State(
-            position=data.xipos[bodies],
-            quaternion=data.xquat[bodies][:, [1, 2, 3, 0]],
-            velocity=speeds[:, 3:],
-            omega=np.einsum("bji,bj->bi", data.xmat[bodies].reshape(-1, 3, 3), speeds[:, :3]),
-            joint_position=data.qpos[self._scalar_q],
-            joint_velocity=data.qvel[self._scalar_v],
-        )
+        # A step leaves the kinematics of the state before it.
+        state = self._look.at(self._qpos, self._qvel)
         self._sound(state)
         return state
 
@@ -145,7 +131,7 @@ class MuJoCo:
 
         Contacts take no part: theirs depend on the step.
         """
-        data = self._scratch
+        data = self._look.data
         q, v = self._centred.state(q, v)
         data.qpos[self._q], data.qvel[self._v] = q, v
         self._forward(self._scene.forces)
@@ -153,9 +139,9 @@ class MuJoCo:
 
     def reactions(self) -> Array:
         """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
-        self._scratch.qpos[:], self._scratch.qvel[:] = self._data.qpos, self._data.qvel
-        scene, model, data = self._scene, self._model, self._scratch
-        self._forward(over_step(scene.forces, model.opt.timestep, self._steps))
+        scene, model, data = self._scene, self._model, self._look.data
+        data.qpos[:], data.qvel[:] = self._qpos, self._qvel
+        self._forward(over_step(scene.forces, self._dt, self._steps))
         names = [body.name for body in scene.bodies]
         held = [int(self._bodies[names.index(name)]) for name in scene.reactions]
         outer = self._forces.found(model, data) if self._forces else None
@@ -167,7 +153,7 @@ class MuJoCo:
 
     def close(self) -> None:
         """Let go of the model."""
-        for name in ("_spec", "_model", "_data", "_scratch"):
+        for name in ("_spec", "_model", "_data", "_qpos", "_qvel", "_warned", "_look"):
             self.__dict__.pop(name, None)
 
     def _locate(self, bodies: list[int], joints: list[int]) -> None:
@@ -184,26 +170,39 @@ class MuJoCo:
         )
         self._scalar_q, self._scalar_v = first_q[scalar], first_v[scalar]
 
+    def _start(self) -> None:
+        """Put the model at the scene's initial state."""
+        self._data = mujoco.MjData(self._model)
+        # Arrays that MuJoCo keeps in their place: to ask for one takes as long as to look into it.
+        self._qpos, self._qvel, self._warned = self._data.qpos, self._data.qvel, self._data.warning.number
+        self._qpos[self._q], self._qvel[self._v] = self._scene.q0, self._scene.v0
+        self._look = Look(mujoco, self._model, self._bodies, self._scalar_q, self._scalar_v)
+
     def _forward(self, forces: Sequence[Force]) -> None:
         """Make of the scratch copy's coordinates and velocities all that follows from them and ``forces``."""
         # Under "discrete" qacc is the change of velocity over a whole step.
         option, euler = self._model.opt, mujoco.mjtIntegrator.mjINT_EULER
         chosen, option.integrator = option.integrator, euler
         with self._forced(forces):
-            mujoco.mj_forward(self._model, self._scratch)
+            mujoco.mj_forward(self._model, self._look.data)
         option.integrator = chosen
 
     def _sound(self, state: State) -> None:
-        data, dt = self._data, self._model.opt.timestep
-        run = f"{self._steps} steps of {dt} s"
-        if data.warning.number.any():
-            kinds = [mujoco.mjtWarning(int(i)).name for i in np.flatnonzero(data.warning.number)]
-            raise EngineError(f"MuJoCo warned within {run}: {', '.join(kinds)}", state)
+        data, dt = self._data, self._dt
+        # Lists, as numpy takes ten times as long to look through so few numbers.
+        if any(self._warned.tolist()):
+            kinds = [mujoco.mjtWarning(int(i)).name for i in np.flatnonzero(self._warned)]
+            raise EngineError(f"MuJoCo warned within {self._run()}: {', '.join(kinds)}", state)
         # Adding up dt rounds by far less than half a step; a reset starts the clock again.
         if abs(data.time - self._steps * dt) > dt / 2:
-            raise EngineError(f"MuJoCo reset itself: its clock shows {data.time} s after {run}", state)
-        if not (np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all()):
-            raise EngineError(f"MuJoCo left the finite numbers within {run}", state)
+            raise EngineError(
+                f"MuJoCo reset itself: its clock shows {data.time} s after {self._run()}", state
+            )
+        if not all(map(isfinite, self._qpos.tolist() + self._qvel.tolist())):
+            raise EngineError(f"MuJoCo left the finite numbers within {self._run()}", state)
+
+    def _run(self) -> str:
+        return f"{self._steps} steps of {self._dt} s"
 
 
 # Until release 4.0 RK4 averaged the body velocities of its stages: second order in attitude.

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from math import isfinite
 from typing import Any, ClassVar
 
 import numpy as np
@@ -102,7 +103,7 @@ class Pinocchio:
         bodies = [self._body_state(joint, centre) for joint, centre in self._centres]
         position, quaternion, velocity, omega = (np.array(part) for part in zip(*bodies, strict=True))
         state = State(position, quaternion, velocity, omega, q[self._scalar_q], v[self._scalar_v])
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
+        if not all(map(isfinite, q.tolist() + v.tolist())):
             run = f"{self._steps} steps of {self._dt} s"
             raise EngineError(f"Pinocchio left the finite numbers within {run}", state)
         return state

@@ -1,6 +1,7 @@
 """PyBullet: trees in reduced coordinates, free bodies in maximal ones too; contact only where asked for."""
 
 import importlib.metadata
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -161,7 +162,7 @@ class _World:
         self._by_one = any(joint.damping for joint in scene.joints) or bool(scene.contacts)
         frames = [inertial_frame(p, client, *place) for place in self.at.bodies]
         self.center, self.axes = (np.array(part) for part in zip(*frames, strict=True))
-        self._carried = np.vstack([self.axes, IDENTITY])
+        self._carried, self._from_axes = np.vstack([self.axes, IDENTITY]), conjugate(self.axes)
 
     def place(self, q: Array, v: Array) -> None:
         """Put everything at these coordinates, laid out as the scene's."""
@@ -221,8 +222,13 @@ class _World:
     def state(self) -> State:
         """Where everything is now."""
         state = State(*self._bodies(), *self._joints())
-        limits.refuse_broken(state, self.at.turning(self._rates()), self.dt)
+        limits.refuse_broken(state, self._turning(state), self.dt)
         return state
+
+    def _turning(self, state: State) -> list[Sequence[float]]:
+        """Every ω (3,) that PyBullet turns something by, in whatever axes."""
+        free = [state.omega[body].tolist() for body, *_ in self.at.free]
+        return free + [p.getJointStateMultiDof(uid, link, self.client)[1] for uid, link, *_ in self.at.balls]
 
     def told(self) -> dict[str, Any]:
         """What PyBullet says of its setup."""
@@ -266,7 +272,7 @@ class _World:
             states = p.getLinkStates(uid, [self.at.bodies[body][1] for body in bodies], 1, 1, self.client)
             for body, (center, turn, *_, linear, angular) in zip(bodies, states, strict=True):
                 position[body], quaternion[body], velocity[body], omega[body] = center, turn, linear, angular
-        quaternion = product(quaternion, conjugate(self.axes))
+        quaternion = product(quaternion, self._from_axes)
         return position, quaternion, velocity, rotated(conjugate(quaternion), omega)
 
     def _joints(self) -> tuple[Array, Array]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -53,17 +54,17 @@ class Layout:
     balls: tuple[Ball, ...]
     scalars: tuple[Scalar, ...]
 
-    @property
+    @cached_property
     def linked(self) -> dict[int, list[int]]:
         """Numbers of the bodies that are no base, by tree."""
         return _by_tree((uid, number) for number, (uid, link) in enumerate(self.bodies) if link >= 0)
 
-    @property
+    @cached_property
     def hinged(self) -> dict[int, list[int]]:
         """Numbers of the hinges and slides, by tree."""
         return _by_tree((scalar.uid, number) for number, scalar in enumerate(self.scalars))
 
-    @property
+    @cached_property
     def springs(self) -> list[tuple[int, list[int], list[float]]]:
         """Of each tree with springs: its number, their links, and the force that each gives at 1."""
         found = _by_tree((scalar.uid, i) for i, scalar in enumerate(self.scalars) if scalar.stiffness)
@@ -71,10 +72,6 @@ class Layout:
             (uid, [self.scalars[i].link for i in numbers], [-self.scalars[i].stiffness for i in numbers])
             for uid, numbers in found.items()
         ]
-
-    def turning(self, rates: Array) -> list[Array]:
-        """Every ω (3,) that PyBullet turns something by, of velocities (nv,)."""
-        return [rates[v][-3:] for *_, v in (*self.free, *self.balls)]
 
 
 def layout(scene: Scene, uids: Mapping[int, int], links: Mapping[str, Place]) -> Layout:

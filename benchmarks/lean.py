@@ -41,8 +41,7 @@ def mujoco_laden(engine, scene):
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[SIZE, 0, 0], mass=0)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], pos=[0, 0, FLOOR])
     engine._model = spec.compile()
-    engine._data, engine._scratch = mujoco.MjData(engine._model), mujoco.MjData(engine._model)
-    engine._data.qpos[engine._q], engine._data.qvel[engine._v] = engine._scene.q0, engine._scene.v0
+    engine._start()
     return engine.step
 
 

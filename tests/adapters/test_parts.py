@@ -70,8 +70,7 @@ def changed(spec_change):
             super().build(scene, scheme, dt)
             spec_change(self._spec)
             self._model = self._spec.compile()
-            self._data, self._scratch = mujoco.MjData(self._model), mujoco.MjData(self._model)
-            self._data.qpos[self._q], self._data.qvel[self._v] = self._scene.q0, self._scene.v0
+            self._start()
 
     return Laden
 
