@@ -3,9 +3,12 @@
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ..reference.checked import Array
 from .engine import State
+
+Places = npt.NDArray[np.intp]
 
 #: Where MuJoCo, whose quaternions are scalar-first, has x, y, z and w.
 _XYZW = np.array([1, 2, 3, 0])
@@ -15,26 +18,22 @@ class Look:
     """A look at a model's ``bodies``, hinges and slides, by their places in MuJoCo's arrays.
 
     A run looks far more often than it builds, and a look at few bodies costs what numpy does about it:
-    arrays are asked for once, and what a look needs of one is taken out of it at once.
+    arrays are asked for once, and what a look needs of one is taken out of it at once. ``data`` is the copy,
+    for other questions whose answers leave the motion alone.
     """
 
-    def __init__(self, mujoco: Any, model: Any, bodies: Array, scalar_q: Array, scalar_v: Array) -> None:
-        self._mujoco, self._model, self._data = mujoco, model, mujoco.MjData(model)
+    def __init__(self, mujoco: Any, model: Any, bodies: Places, scalar_q: Places, scalar_v: Places) -> None:
+        self._mujoco, self._model, self.data = mujoco, model, mujoco.MjData(model)
         self._bodies, self._numbers = bodies, bodies.tolist()
         self._scalar_q, self._scalar_v = scalar_q, scalar_v
-        self._qpos, self._qvel, self._xipos = self._data.qpos, self._data.qvel, self._data.xipos
-        self._xquat, self._xmat = self._data.xquat.ravel(), self._data.xmat.ravel()
+        self._qpos, self._qvel, self._xipos = self.data.qpos, self.data.qvel, self.data.xipos
+        self._xquat, self._xmat = self.data.xquat.ravel(), self.data.xmat.ravel()
         self._quaternions = 4 * bodies[:, None] + _XYZW
         self._axes = 9 * bodies[:, None, None] + np.arange(9).reshape(3, 3)
 
-    @property
-    def data(self) -> Any:
-        """The copy, for other questions whose answers leave the motion alone."""
-        return self._data
-
     def at(self, qpos: Array, qvel: Array) -> State:
         """Where everything is at coordinates and velocities as MuJoCo has them."""
-        mujoco, model, data = self._mujoco, self._model, self._data
+        mujoco, model, data = self._mujoco, self._model, self.data
         self._qpos[:], self._qvel[:] = qpos, qvel
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)

@@ -187,6 +187,7 @@ SCENES = (
         ((1.8, -0.9),),
         ((1.0, -2.0),),
         (),
-        {1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (5e-3, 2.5e-3, 1.25e-3, 6.25e-4, 3.125e-4)},
+        # Of fourth order coarser steps err by other laws, and finer ones by round-off.
+        {1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (2.5e-3, 1.6e-3, 1e-3, 6.25e-4, 4e-4)},
     ),
 )
