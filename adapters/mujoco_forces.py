@@ -18,7 +18,8 @@ class Forces:
     """
 
     def __init__(self, mujoco: Any, scene: Scene, bodies: Array) -> None:
-        self._mujoco, self._bodies, self._scene = mujoco, bodies, scene
+        self._mujoco, self._kind, self._scene = mujoco, int(mujoco.mjtObj.mjOBJ_BODY), scene
+        self._bodies, self._numbers = bodies, bodies.tolist()
         self._acting: Sequence[Force] = scene.forces
         self._total = forces_on(scene.bodies, scene.forces)
         self._needs_velocity = any(force.needs_velocity for force in scene.forces)
@@ -38,17 +39,21 @@ class Forces:
 
     def found(self, model: Any, data: Any) -> Array:
         """What those that acted last are in the state of ``data`` (b, 3) [N], world axes."""
-        mujoco, velocity = self._mujoco, self._velocity
+        return self._at(model, data, data.xipos.take(self._bodies, 0))
+
+    def _at(self, model: Any, data: Any, places: Array) -> Array:
+        mujoco, velocity, speed = self._mujoco, self._velocity, self._speed
         if self._needs_velocity:
-            for row, body in zip(velocity, self._bodies, strict=True):
-                mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, self._speed, 0)
-                row[:] = self._speed[3:]
-        return self._total(data.xipos[self._bodies], velocity)
+            for row, body in zip(velocity, self._numbers, strict=True):
+                mujoco.mj_objectVelocity(model, data, self._kind, body, speed, 0)
+                row[:] = speed[3:]
+        return self._total(places, velocity)
 
     def _push(self, model: Any, data: Any) -> None:
-        places = data.xipos[self._bodies]
-        for force, place, body in zip(self.found(model, data), places, self._bodies, strict=True):
-            self._mujoco.mj_applyFT(model, data, force, _NO_TORQUE, place, body, data.qfrc_passive)
+        apply, result, places = self._mujoco.mj_applyFT, data.qfrc_passive, data.xipos.take(self._bodies, 0)
+        forces = self._at(model, data, places)
+        for force, place, body in zip(forces, places, self._numbers, strict=True):
+            apply(model, data, force, _NO_TORQUE, place, body, result)
 
 
 _NO_TORQUE = np.zeros(3)

@@ -24,7 +24,10 @@ class Forces:
             self._model.addFrame(pin.Frame(f"centre {i}", joint, place, pin.FrameType.OP_FRAME))
             for i, (joint, place) in enumerate(centres)
         ]
-        self._data = self._model.createData()
+        self._data, self._axes = self._model.createData(), pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        # Of the centres: the same numbers (b, 3, nv) and (3 b, nv), and where they are (b, 3) [m].
+        self._rows = np.zeros((len(centres), 3, model.nv))
+        self._jacobian, self._position = self._rows.reshape(-1, model.nv), np.zeros((len(centres), 3))
 
     def let_act(self, forces: Sequence[Force]) -> None:
         """Let these alone act from now on."""
@@ -33,26 +36,26 @@ class Forces:
 
     def along_velocities(self, q: Array, v: Array) -> Array:
         """Joint forces (nv,) at coordinates and velocities as Pinocchio has them."""
-        force, J = self._found(q, v)
-        return np.asarray(force.ravel() @ J.reshape(-1, len(v)))
+        return np.asarray(self._found(q, v).ravel().dot(self._jacobian))
 
     def on_joints(self, q: Array, v: Array) -> list[Any]:
         """Their wrench on each joint, in its axes: what Pinocchio is to take off what its joints bear."""
         pin, result = self._pin, [self._pin.Force.Zero() for _ in range(self._model.njoints)]
         if self._acting:
-            force, _ = self._found(q, v)
-            for (joint, place), frame, push in zip(self._centres, self._frames, force, strict=True):
+            found = self._found(q, v)
+            for (joint, place), frame, push in zip(self._centres, self._frames, found, strict=True):
                 turn = self._data.oMf[frame].rotation
                 result[joint] += place.act(pin.Force(turn.T @ push, np.zeros(3)))
         return result
 
-    def _found(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """Forces (b, 3) [N] in world axes, and the Jacobians (b, 3, nv) of the centres."""
-        pin, model, data = self._pin, self._model, self._data
-        axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+    def _found(self, q: Array, v: Array) -> Array:
+        """Forces (b, 3) [N] in world axes; the Jacobian of the centres is then that at ``q``."""
+        pin, model, data, jacobian, position = self._pin, self._model, self._data, self._rows, self._position
+        axes = self._axes
         pin.computeJointJacobians(model, data, q)
         pin.updateFramePlacements(model, data)
-        J = np.array([pin.getFrameJacobian(model, data, frame, axes)[:3] for frame in self._frames])
-        position = np.array([data.oMf[frame].translation for frame in self._frames])
-        J = J.reshape(-1, 3, len(v))  # of a single velocity Pinocchio leaves out the last dimension
-        return self._total(position, J @ v), J
+        for number, frame in enumerate(self._frames):
+            # Of a single velocity Pinocchio leaves out the last dimension.
+            jacobian[number] = pin.getFrameJacobian(model, data, frame, axes)[:3].reshape(3, -1)
+            position[number] = data.oMf[frame].translation
+        return self._total(position, self._jacobian.dot(v).reshape(-1, 3))

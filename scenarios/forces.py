@@ -186,7 +186,7 @@ class Coriolis:
         masses = _masses(bodies)[:, None]
 
         def push(position: Array, velocity: Array, total: Array) -> None:
-            total += masses * (velocity @ twice)
+            total += masses * velocity.dot(twice)
 
         return push
 
@@ -214,7 +214,7 @@ class Centrifugal:
         masses = _masses(bodies)[:, None]
 
         def push(position: Array, velocity: Array, total: Array) -> None:
-            total += masses * ((position - center) @ outward)
+            total += masses * (position - center).dot(outward)
 
         return push
 
