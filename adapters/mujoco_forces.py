@@ -39,20 +39,16 @@ class Forces:
 
     def found(self, model: Any, data: Any) -> Array:
         """What those that acted last are in the state of ``data`` (b, 3) [N], world axes."""
-        return self._at(model, data, data.xipos.take(self._bodies, 0))
-
-    def _at(self, model: Any, data: Any, places: Array) -> Array:
         mujoco, velocity, speed = self._mujoco, self._velocity, self._speed
         if self._needs_velocity:
             for row, body in zip(velocity, self._numbers, strict=True):
                 mujoco.mj_objectVelocity(model, data, self._kind, body, speed, 0)
                 row[:] = speed[3:]
-        return self._total(places, velocity)
+        return self._total(data.xipos.take(self._bodies, 0), velocity)
 
     def _push(self, model: Any, data: Any) -> None:
         apply, result, places = self._mujoco.mj_applyFT, data.qfrc_passive, data.xipos.take(self._bodies, 0)
-        forces = self._at(model, data, places)
-        for force, place, body in zip(forces, places, self._numbers, strict=True):
+        for force, place, body in zip(self.found(model, data), places, self._numbers, strict=True):
             apply(model, data, force, _NO_TORQUE, place, body, result)
 
 

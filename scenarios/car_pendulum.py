@@ -122,6 +122,7 @@ SCENES = (
         v0=(-1.0, 0.8),
         duration=2.0,
         samples=50,
+        dt=2e-3,
         truth=_truth,
         observables=(
             observables.position(),
@@ -141,7 +142,7 @@ SCENES = (
                 "Angle from the vertical, to the rear", "φ [rad]", lambda scene, m: m.joint_position[:, 1]
             ),
         ),
-        ladders={1: (8e-3, 4e-3, 2e-3, 1e-3, 5e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
+        ladders=dict.fromkeys((1, 4), (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)),
         errors=ERRORS,
     ),
 )

@@ -128,7 +128,7 @@ def _pendulum(variant: str, summary: str, angle: float, rate: float) -> Scene:
             pictures.against_time("Angle as hung", "θ [rad]", lambda scene, m: m.joint_position[:, 0]),
             pictures.against_time("Angle reversed", "θ [rad]", lambda scene, m: m.joint_position[:, 1]),
         ),
-        ladders={1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
+        ladders={1: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
         errors=every_scheme(ERRORS[variant], *ALIKE),
     )
 

@@ -52,7 +52,7 @@ SCENES = (
             pictures.tip("Axis of the cone"),
             pictures.against_time("Tilt", "β [rad]", pivoted_top.tilt),
         ),
-        ladders={1: (5e-4, 2.5e-4, 1.25e-4, 6.25e-5, 3.125e-5), 4: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)},
+        ladders={1: (5e-4, 2.5e-4, 5e-4 / 3, 1.25e-4, 6.25e-5), 4: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)},
         errors=every_scheme(ERRORS, like="semi-implicit Euler"),
     ),
 )

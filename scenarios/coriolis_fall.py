@@ -82,7 +82,7 @@ def _fall(
         duration=duration,
         samples=50,
         # The prediction is exact at any step: none asks for a finer one.
-        dt=2e-3,
+        dt=4e-3,
         truth=_truth,
         scheme_motion=_scheme_motion,
         observables=(
@@ -97,7 +97,7 @@ def _fall(
         pictures=(
             pictures.Picture("Path", ("east [m]", "north [m]", "up [m]"), lambda scene, m: m.position[:, 0]),
         ),
-        ladders=dict.fromkeys((1, 4), (3.2e-2, 1.6e-2, 8e-3, 4e-3, 2e-3)),
+        ladders=dict.fromkeys((1, 4), (3.2e-2, 1.6e-2, 3.2e-2 / 3, 8e-3, 4e-3)),
     )
 
 

@@ -106,6 +106,7 @@ SCENES = (
         v0=tuple(_START.joint_velocity[0].tolist()),
         duration=2.4,
         samples=75,
+        dt=2e-3,
         truth=_truth,
         observables=(
             observables.position(),
@@ -121,7 +122,7 @@ SCENES = (
                 "Path from above", ("east [m]", "north [m]"), lambda scene, m: m.position[:, 0, :2]
             ),
         ),
-        ladders={1: (8e-3, 4e-3, 2e-3, 1e-3, 5e-4), 4: (1.6e-2, 8e-3, 4e-3, 2e-3, 1e-3)},
+        ladders={1: (1.6e-2, 8e-3, 4e-3, 2e-3, 1e-3), 4: (1.6e-2, 8e-3, 1.6e-2 / 3, 4e-3, 2e-3)},
         errors=ERRORS,
     ),
 )

@@ -66,6 +66,7 @@ def _at_rest(
         v0=(0.0, 0.0, 0.0),
         duration=1.0,
         samples=20,
+        dt=2.5e-3,
         truth=_truth,
         observables=(
             observables.position(),

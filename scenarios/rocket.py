@@ -78,6 +78,6 @@ SCENES = (
             observables.unit_norm(),
         ),
         pictures=(pictures.against_time("Upward velocity", "[m/s]", lambda scene, m: m.velocity[:, 0, 2]),),
-        ladders={1: (8e-3, 4e-3, 2e-3, 1e-3, 5e-4)},
+        ladders={1: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
     ),
 )

@@ -70,6 +70,7 @@ SCENES = (
         forces=(Center(GM, MOON),),
         duration=0.8,
         samples=25,
+        dt=2e-3,
         truth=_truth,
         observables=(
             observables.position(),

@@ -147,14 +147,16 @@ def moved(scene, truth, wrong, observable):
 
 
 @EVERY
-def test_ladders_are_whole_steps_that_halve(scene):
-    # Or that go by thirds, which keep a blow in the middle of a step; only first-order schemes have contact.
+def test_ladders_are_whole_steps_far_enough_apart(scene):
+    # Most halve; some go by thirds, which keep a blow in the middle of a step, some by less, to stay clear of
+    # round-off or to end sooner. Only first-order schemes have contact.
     # Engines as they come are looked at at one step: what they do does not go away with it.
     assert scene.defaults or ({1} if scene.contacts or scene.burning else {1, 4}) <= set(scene.ladders)
     for steps in scene.ladders.values():
         assert len(steps) >= 5
-        ratio = 3.0 if scene.contacts and steps[0] / steps[1] > 2.5 else 2.0
-        assert np.array(steps[:-1]) / steps[1:] == pytest.approx(np.full(len(steps) - 1, ratio), rel=1e-12)
+        ratios = np.array(steps[:-1]) / steps[1:]
+        assert ((ratios >= 4 / 3 - 1e-12) & (ratios <= 3 + 1e-12)).all()
+        assert steps[0] / steps[-1] >= 6
         assert [scene.whole_step(dt) for dt in steps] == list(steps)
     assert scene.whole_step(scene.dt) == scene.dt
 
