@@ -16,6 +16,7 @@ from pebble import ProcessExpired, ProcessPool
 from ..reference.errors import PoinsotError
 from ..scenarios.registry import scenes
 from . import log, memory, registry, spent
+from .one_thread import one_thread_each
 from .simulate import simulate
 from .timing import Timing, timed
 
@@ -116,17 +117,18 @@ def isolated(
 
     Each is worked on in a child process for ``time_limit`` [s] at most; ``work`` must have a name of its own.
     """
-    pool = ProcessPool(max_workers=workers, context=multiprocessing.get_context("spawn"))
-    origin: dict[Future[Any], Asked] = {
-        pool.schedule(work, (request, *arguments), timeout=time_limit): request for request in requests
-    }
-    try:
-        for future in as_completed(origin):
-            yield origin[future], _result(future, time_limit)
-    finally:
-        # Whoever stops asking, by an interrupt for one, wants nothing of what is still under way.
-        pool.stop()  # type: ignore[no-untyped-call]
-        pool.join()
+    with one_thread_each():
+        pool = ProcessPool(max_workers=workers, context=multiprocessing.get_context("spawn"))
+        origin: dict[Future[Any], Asked] = {
+            pool.schedule(work, (request, *arguments), timeout=time_limit): request for request in requests
+        }
+        try:
+            for future in as_completed(origin):
+                yield origin[future], _result(future, time_limit)
+        finally:
+            # Whoever stops asking, by an interrupt for one, wants nothing of what is still under way.
+            pool.stop()  # type: ignore[no-untyped-call]
+            pool.join()
 
 
 def _result(future: Future[Any], time_limit: float) -> Any:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .adapters import log, spent
+from .adapters.one_thread import one_thread_each
 from .reference.errors import InputError
 from .reports import order, results, truth
 from .reports.cell import Cell
@@ -79,7 +80,7 @@ def _mapped(
     if workers <= 1:
         yield from map(work, parts)
         return
-    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
+    with one_thread_each(), ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
         yield from pool.map(work, parts)
 
 

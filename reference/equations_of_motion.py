@@ -110,8 +110,10 @@ def required_forces(
     state, v = motion(links, q, v), finite("v", v)
     a = finite("acceleration", acceleration, v.shape)
     applied = _applied(links, state, *checked_state(links, q, v), gravity, joint_forces, forces, torques)
-    result: Array = np.einsum("...ij,...j->...i", _mass_matrix(links, state), a)
-    return result + _bias(links, state, v) - applied
+    result: Array = _bias(links, state, v) - applied
+    if a.any():  # at rest the mass matrix, by far the longest part, counts for nothing
+        result += np.einsum("...ij,...j->...i", _mass_matrix(links, state), a)
+    return result
 
 
 def mass_matrix(links: Sequence[Link], q: npt.ArrayLike) -> Array:
@@ -127,10 +129,17 @@ def bias(links: Sequence[Link], q: npt.ArrayLike, v: npt.ArrayLike) -> Array:
 
 def _mass_matrix(links: Sequence[Link], state: Motion) -> Array:
     V, W = state.partial_velocity, state.partial_omega
-    translating = (V * _masses(links)[:, None, None]) @ np.swapaxes(V, -1, -2)
-    rotating = W @ _world_inertia(links, state) @ np.swapaxes(W, -1, -2)
-    result: Array = np.sum(translating + rotating, axis=-3)
+    # Links and directions side by side: a product for each link takes a hundred times as long for 64 of them.
+    translating = _flat(V * _masses(links)[:, None, None]) @ np.swapaxes(_flat(V), -1, -2)
+    rotating = _flat(W @ _world_inertia(links, state)) @ np.swapaxes(_flat(W), -1, -2)
+    result: Array = translating + rotating
     return result
+
+
+def _flat(partial: Array) -> Array:
+    """Partial velocities (..., n, nv, 3) as (..., nv, 3 n)."""
+    by_velocity = np.moveaxis(partial, -3, -2)
+    return by_velocity.reshape(*by_velocity.shape[:-2], -1)
 
 
 def _solved(M: Array, rest: Array) -> Array:
