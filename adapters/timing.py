@@ -13,7 +13,7 @@ from .engine import Engine, Scheme
 REPEATS = 10
 #: How long [s] one repeat steps: long against the clock's grain, short enough to repeat ten times.
 #: A cell that takes longer as a whole is timed over a part of its steps, and the time scaled to all of them.
-SPAN = 0.002
+SPAN = 0.001
 #: A cell whose middle repeat takes longer than its fastest by this part is timed once more, or marked.
 SPREAD = 0.2
 #: Rounds of the loop that tells how fast the machine itself is just then.

@@ -185,7 +185,7 @@ def timing(scene: Scene, dt: float, expected: Work) -> float:
     """Seconds that timing a cell takes if none of its repeats is disturbed."""
     run = scene.samples * scene.steps_per_sample(dt) * expected.step
     once = min(SPAN, run)
-    builds = REPEATS if scene.contacts else math.ceil(REPEATS * once / run)
+    builds = REPEATS if scene.contacts else math.ceil(REPEATS / (run / once))
     return (1 + builds) * expected.built + (1 + REPEATS) * once
 
 

@@ -53,5 +53,5 @@ def test_rates_are_what_the_cells_took():
     assert found["cell"]["mujoco"]["whole"] == pytest.approx(1.1)
     assert found["cell"]["mujoco"]["asked"] == pytest.approx(0.4)
     assert found["cell"]["mujoco"]["repeated"] == pytest.approx(0.5)
-    # Building twice, as ten repeats of 2 ms fit into the run, and eleven times 2 ms.
-    assert found["timing"]["factor"] == pytest.approx(3.0 / (2 * 0.2 + 11 * 0.002), rel=1e-2)
+    # Building twice, as ten repeats of 1 ms fit into the run, and eleven times 1 ms.
+    assert found["timing"]["factor"] == pytest.approx(3.0 / (2 * 0.2 + 11 * 0.001), rel=1e-2)
