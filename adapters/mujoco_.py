@@ -84,7 +84,7 @@ class MuJoCo:
             mujoco.set_mju_user_warning(lambda message: None)
         self._centred = centred(scene)
         self._scene = scene = self._centred.scene
-        self._scheme, self._dt, self._steps = scheme, dt, 0
+        self._scheme, self._steps = scheme, 0
         self._spec, bodies, joints = _spec(scene, scheme, dt)
         self._model = _compiled(self._spec, scene.full_name)
         _keep_small_offsets(self._model)
@@ -92,11 +92,11 @@ class MuJoCo:
         self._forces = Forces(mujoco, scene, self._bodies) if scene.forces else None
         self._forced = self._forces.acting if self._forces else nullcontext
         self._masses = Masses(mujoco, scene, self._model, self._bodies, dt) if scene.burning else None
-        self._start()
+        self._begin()
 
     def step(self, n: int) -> None:
         """Advance by ``n`` steps in MuJoCo's own loop."""
-        for count, forces in stretches(self._scene.forces, self._dt, self._steps, n):
+        for count, forces in stretches(self._scene.forces, self._model.opt.timestep, self._steps, n):
             with self._forced(forces):
                 if self._masses is None:
                     mujoco.mj_step(self._model, self._data, nstep=count)
@@ -141,7 +141,7 @@ class MuJoCo:
         """Reactions (k, 6) now, of the bodies that the scene names, as ``Trajectory.reaction`` has them."""
         scene, model, data = self._scene, self._model, self._look.data
         data.qpos[:], data.qvel[:] = self._qpos, self._qvel
-        self._forward(over_step(scene.forces, self._dt, self._steps))
+        self._forward(over_step(scene.forces, self._model.opt.timestep, self._steps))
         names = [body.name for body in scene.bodies]
         held = [int(self._bodies[names.index(name)]) for name in scene.reactions]
         outer = self._forces.found(model, data) if self._forces else None
@@ -170,7 +170,7 @@ class MuJoCo:
         )
         self._scalar_q, self._scalar_v = first_q[scalar], first_v[scalar]
 
-    def _start(self) -> None:
+    def _begin(self) -> None:
         """Put the model at the scene's initial state."""
         self._data = mujoco.MjData(self._model)
         # Arrays that MuJoCo keeps in their place: to ask for one takes as long as to look into it.
@@ -188,7 +188,7 @@ class MuJoCo:
         option.integrator = chosen
 
     def _sound(self, state: State) -> None:
-        data, dt = self._data, self._dt
+        data, dt = self._data, self._model.opt.timestep
         # Lists, as numpy takes ten times as long to look through so few numbers.
         if any(self._warned.tolist()):
             kinds = [mujoco.mjtWarning(int(i)).name for i in np.flatnonzero(self._warned)]
@@ -202,7 +202,7 @@ class MuJoCo:
             raise EngineError(f"MuJoCo left the finite numbers within {self._run()}", state)
 
     def _run(self) -> str:
-        return f"{self._steps} steps of {self._dt} s"
+        return f"{self._steps} steps of {self._model.opt.timestep} s"
 
 
 # Until release 4.0 RK4 averaged the body velocities of its stages: second order in attitude.

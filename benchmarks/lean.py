@@ -41,7 +41,7 @@ def mujoco_laden(engine, scene):
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[SIZE, 0, 0], mass=0)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], pos=[0, 0, FLOOR])
     engine._model = spec.compile()
-    engine._start()
+    engine._begin()
     return engine.step
 
 

@@ -70,7 +70,7 @@ def changed(spec_change):
             super().build(scene, scheme, dt)
             spec_change(self._spec)
             self._model = self._spec.compile()
-            self._start()
+            self._begin()
 
     return Laden
 

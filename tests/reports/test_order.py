@@ -14,7 +14,7 @@ from poinsot.scenarios.registry import scenes
 
 SCENE = scenes()["free_symmetric_top[oblate]"]
 KNOWN = {SCENE.full_name: SCENE}
-STEPS = SCENE.ladders[1]
+STEPS = (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)
 STATES = [observable.name for observable in SCENE.observables if observable.kind == "state"]
 
 

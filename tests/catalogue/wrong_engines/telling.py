@@ -46,7 +46,7 @@ class WorldOmega(MuJoCo):
 
 class FrameNotCentre(MuJoCo):
     def state(self):
-        return super().state()._replace(position=self._scratch.xpos[self._bodies])
+        return super().state()._replace(position=self._look.data.xpos[self._bodies])
 
 
 class StuckInPlace(MuJoCo):
@@ -89,7 +89,7 @@ class VelocityOfFrame(MuJoCo):
 
     def state(self):
         found = super().state()
-        arm = found.position - self._scratch.xpos[self._bodies]
+        arm = found.position - self._look.data.xpos[self._bodies]
         swept = np.cross(quaternions.rotated(found.quaternion, found.omega), arm)
         return found._replace(velocity=found.velocity - swept)
 
