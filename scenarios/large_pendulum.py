@@ -78,7 +78,7 @@ def _pendulum(variant: str, summary: str, start: tuple[float, float]) -> Scene:
             hinged.residual(),
         ),
         pictures=(pictures.against_time("Angle", "θ [rad]", lambda scene, m: m.joint_position[:, 0]),),
-        ladders={1: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)},
+        ladders={1: (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4), 4: (1e-2, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4)},
         errors=every_scheme(ERRORS[variant], *ALIKE),
     )
 
