@@ -194,3 +194,18 @@ def test_only_states_have_an_order(ahead):
     assert {v.observable.removesuffix(", limit") for v in checked([ahead(SCENE, dt) for dt in STEPS])} == set(
         STATES
     )
+
+
+def test_a_limit_leaves_out_a_step_that_is_near_to_a_finer_one(ahead):
+    steps = (0.01, 0.005, 0.0025, 0.001, 0.000625)
+    few, crowded = (
+        limits(checked([noisy(ahead(SCENE, dt, 4), np.random.default_rng(2), 1e-14) for dt in dts]))
+        for dts in (steps, (*steps[:3], 0.00125, *steps[3:]))
+    )
+    for verdict in few.values():
+        assert crowded[verdict.observable.removesuffix(", limit")].allowed == verdict.allowed
+
+
+def test_of_steps_that_are_all_near_to_one_another_a_limit_takes_all(ahead):
+    verdicts = limits(checked([ahead(SCENE, dt) for dt in (1e-3, 9.6e-4, 9.2e-4, 8.8e-4, 8.4e-4)]))
+    assert all(verdict.status is Status.PASS for verdict in verdicts.values())
