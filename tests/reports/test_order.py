@@ -172,9 +172,11 @@ def test_a_limit_that_is_not_the_truth_fails_behind_any_truncation(ahead, off):
     )
 
 
-@pytest.mark.parametrize(("times", "status"), [(1.9, "pass"), (2.1, "fail")])
-def test_a_limit_is_granted_twice_the_round_off_of_the_worst_step(ahead, times, status):
-    runs = [ahead(SCENE, dt, c=0.0) for dt in STEPS]
+@pytest.mark.parametrize(
+    ("declared", "times", "status"), [(4, 1.9, "pass"), (4, 2.1, "fail"), (1, 7.2, "pass"), (1, 7.4, "fail")]
+)
+def test_a_limit_is_granted_the_round_off_of_the_worst_step_as_it_weighs_it(ahead, declared, times, status):
+    runs = [ahead(SCENE, dt, declared, c=0.0) for dt in STEPS]
     omega = next(observable for observable in SCENE.observables if observable.name == "omega")
     noise = max(Cell.of(run, KNOWN).round_off(omega) for run in runs)
     shift = np.array([times * noise, 0.0, 0.0])
