@@ -56,7 +56,7 @@ def _top(variant: str, I1: float, I3: float, spin: float = 5.0) -> Scene:
         pictures=(pictures.tip(), pictures.body_cone()),
         ladders={}
         if defaults
-        else {1: (4e-3, 2e-3, 4e-3 / 3, 1e-3, 5e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
+        else {1: (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4), 4: (2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3)},
         errors=every_scheme(ERRORS["fast" if fast else shape], like="implicit gyroscopic"),
     )
 
