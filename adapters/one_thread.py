@@ -12,8 +12,8 @@ NAMES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 def one_thread_each() -> Iterator[None]:
     """Processes that start within this get one thread each, unless whoever runs Poinsot chose otherwise.
 
-    There are as many processes as cores: threads beside them wait for one another, a judging of all scenes a
-    seventh longer. And what is worked out has the same bits whatever the number of processes.
+    There are as many processes as cores: threads beside them wait for one another, and a judging of all
+    scenes takes a tenth longer or more.
     """
     added = [name for name in NAMES if name not in os.environ]
     os.environ.update(dict.fromkeys(added, "1"))

@@ -11,7 +11,7 @@ Array = npt.NDArray[np.float64]
 
 #: Distance from unit length up to which a quaternion counts as one [1]; it is then normalised.
 UNIT_TOLERANCE = 1e-9
-#: Distance from 1 to the next double [1].
+#: Spacing of the doubles at 1: what one rounding may cost, relatively [1].
 EPSILON = float(np.finfo(np.float64).eps)
 
 

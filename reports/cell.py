@@ -5,16 +5,13 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from ..reference.checked import Array
+from ..reference.checked import EPSILON, Array
 from ..reference.errors import InputError
 from ..scenarios.observables import Observable
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Provenance, Trajectory
 from .growth import growth
 from .verdict import Status, Verdict
-
-#: Spacing of the doubles at 1: what one rounding may cost, relatively.
-EPSILON = float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,12 +8,12 @@ import numpy as np
 
 from ..adapters.centred import centred
 from ..reference import quaternions, tree_schemes
-from ..reference.checked import Array
+from ..reference.checked import EPSILON, Array
 from ..scenarios.equations import states
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
 from .acceleration import expected
-from .cell import EPSILON, Cell
+from .cell import Cell
 from .fitting import size
 from .intervals import Intervals
 from .order import extrapolated

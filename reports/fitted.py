@@ -3,9 +3,10 @@
 from dataclasses import fields, replace
 from typing import NamedTuple
 
+from ..reference.checked import EPSILON
 from ..scenarios.observables import Observable
 from ..scenarios.trajectory import Trajectory
-from .cell import EPSILON, Cell
+from .cell import Cell
 
 #: Fewest samples of which every other one still makes a motion to fit to.
 FEWEST = 5

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..adapters.centred import centred
 from ..reference import equations_of_motion, quaternions, tree_schemes
-from ..reference.checked import Array
+from ..reference.checked import EPSILON, Array
 from ..scenarios.blows import at_work
 from ..scenarios.body import Body
 from ..scenarios.equations import links
@@ -24,7 +24,6 @@ from .supposed import Model
 #: Numbers of intervals.
 Places = npt.NDArray[np.intp]
 
-EPSILON = float(np.finfo(np.float64).eps)
 #: Steps of the fine scheme that an interval's exact flow is made of.
 FINE = 8
 

@@ -4,9 +4,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..reference.checked import Array
+from ..reference.checked import EPSILON, Array
 from ..scenarios.trajectory import Trajectory
-from .cell import EPSILON
 from .evidence import NOTHING, Evidence
 from .fitting import digits, size
 from .order import ABOVE
