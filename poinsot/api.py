@@ -10,7 +10,7 @@ from .adapters.simulate import unsupported
 from .adapters.timing import timed
 from .precision import affordable, rows
 from .reports import judge as _judge
-from .reports.results import pace
+from .reports.results import with_time
 from .reports.verdict import Verdict
 from .scenarios.registry import scenes as _scenes
 from .scenarios.registry import select
@@ -75,8 +75,7 @@ def work_precision(
                 each = timed(scene, engine, scheme, scene.dt)
                 for dt in affordable(scene, scheme, each.least / each.steps):
                     timing = timed(scene, engine, scheme, dt)
-                    times = timing.as_row() | pace(timing.steps, dt, timing.least)
-                    found += [row | times for row in rows(scene, engine, scheme, dt)]
+                    found += [with_time(row, timing.as_row()) for row in rows(scene, engine, scheme, dt)]
     return found
 
 

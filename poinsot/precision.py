@@ -10,7 +10,7 @@ from .adapters.simulate import simulate
 from .adapters.timing import Timing
 from .plan import Plan
 from .reports.cell import Cell
-from .reports.results import Key, pace, precision_rows
+from .reports.results import Key, precision_rows, with_time
 from .scenarios.registry import scenes
 from .scenarios.scene import Scene
 
@@ -67,7 +67,7 @@ def beyond(
         if isinstance(result, str):
             broken[request.engine, request.scheme, result].append(f"{request.scene} ({request.dt:.2g} s)")
         else:
-            found += [row | times[request] | {"judged": False} for row in result]
+            found += [with_time(row, times[request]) | {"judged": False} for row in result]
     found.sort(key=lambda row: (row["scene"], row["engine"], row["scheme"], -row["dt"]))
     failed = [
         f"Error over run time, {engine} {scheme}: {said} in {', '.join(where)}."
@@ -94,8 +94,7 @@ def _wanted(
             if not any(abs(dt / other - 1) < 1e-9 for other in there):
                 cell = runner.Request(scene.full_name, request.engine, scheme.name, dt)
                 steps = scene.samples * scene.steps_per_sample(dt)
-                its = timing.of(steps)
-                times[cell] = its.as_row() | pace(steps, dt, its.least)
+                times[cell] = timing.of(steps).as_row()
     return times, [
         f"Error over run time, {scheme}: fewer than {RUNGS} steps where a run would take over {LONGEST:g} s: "
         f"{', '.join(names)}."

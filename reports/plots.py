@@ -43,10 +43,10 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
     """Error against run time and against the step, each for every observable of one scene.
 
     ``rows`` are those of ``work_precision`` for that scene. The result holds ``lines``, one a scheme: how
-    plotly draws it, and its configurations from the finest step on (``x`` by axis, ``told`` on hover);
-    ``axes``: what errors stand against; ``observables``: the ``errors`` of every line at its configurations,
-    and for each axis the Pareto ``fronts`` and ``notes`` on whatever has no place there. What all views share
-    is thus said once. ``None`` where there are no rows, or but one step and no time.
+    plotly draws it, and its configurations from the finest step on (``x`` by axis, ``least`` run time [s],
+    ``told`` on hover); ``axes``: what errors stand against; ``observables``: the ``errors`` of every line at
+    its configurations, and for each axis the Pareto ``fronts`` and ``notes`` on whatever has no place there.
+    What all views share is thus said once. ``None`` where there are no rows, or but one step and no time.
     """
     table = list(rows)
     timed = any(row["seconds_median"] is not None for row in table)
@@ -133,6 +133,7 @@ def _line(column: Column, axes: list[str], points: list[tuple[Any, ...]]) -> Fig
         },
         "who": f"{column.engine} {column.version}, {column.scheme}",
         "x": {key: [_digits(row[key]) if _on_log_axis(row[key]) else None for row in rows] for key in axes},
+        "least": [_digits(row["seconds_min"]) if row["seconds_min"] else None for row in rows],
         "told": [[number(row["dt"]), row["steps"], _time(row)] for row in rows],
     }
 

@@ -109,18 +109,25 @@ def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any
     for cell in cells:
         p = cell.provenance
         time = seconds.get((p.scene, p.engine, p.scheme, p.dt), untimed)
-        timed = dict(time) | pace(p.steps, p.dt, time["seconds_min"])
         for observable in cell.scene.observables:
             if observable.kind != "invariant":
-                rows.append(_row(cell, observable) | timed)  # noqa: PERF401 (two loops read better than one)
+                rows.append(with_time(_row(cell, observable), time))  # noqa: PERF401 (two loops read better than one)
     return rows
 
 
-def pace(steps: int, dt: float, seconds: float | None) -> dict[str, float | None]:
-    """Steps a second, and seconds of motion to a second of run time, of so many steps in ``seconds``."""
+def with_time(row: Mapping[str, Any], time: Mapping[str, Any]) -> dict[str, Any]:
+    """A row with its times, and what follows from them.
+
+    Steps a second, seconds of motion to a second of run time, and the error (largest, in the row's ``unit``)
+    that is made in each µs of run time.
+    """
+    steps, seconds, error = row["steps"], time["seconds_min"], row["error"]
     return {
+        **row,
+        **time,
         "steps_per_second": steps / seconds if seconds else None,
-        "real_time": steps * dt / seconds if seconds else None,
+        "real_time": steps * row["dt"] / seconds if seconds else None,
+        "error_per_us": error / (seconds * 1e6) if seconds and error is not None else None,
     }
 
 

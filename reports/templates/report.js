@@ -94,13 +94,14 @@
   }
 
   // A scheme's errors where both axes have a place for them.
-  function costTrace(plot, { trace, who, x, told }, errors, key, unit) {
+  function costTrace(plot, { trace, who, x, least, told }, errors, key, unit) {
     const drawn = errors.map((_, i) => i).filter((i) => errors[i] !== null && x[key][i] !== null);
     const place = (values) => drawn.map((i) => values[i]);
+    const pace = (i) => least[i] ? `, ${(errors[i] / least[i] / 1e6).toExponential(2)} ${unit} each µs` : "";
     return {
-      ...trace, x: place(x[key]), y: place(errors), customdata: place(told), visible: !plot.hidden.has(trace.name),
+      ...trace, x: place(x[key]), y: place(errors), customdata: drawn.map((i) => [...told[i], pace(i)]), visible: !plot.hidden.has(trace.name),
       line: { ...trace.line, color: color(trace.meta) }, marker: { ...trace.marker, color: color(trace.meta) },
-      hovertemplate: `<b>${who}</b><br>dt %{customdata[0]} s, %{customdata[1]} steps<br>error %{y:.2e} ${unit}<br>%{customdata[2]}<extra></extra>`,
+      hovertemplate: `<b>${who}</b><br>dt %{customdata[0]} s, %{customdata[1]} steps<br>error %{y:.2e} ${unit}%{customdata[3]}<br>%{customdata[2]}<extra></extra>`,
     };
   }
 

@@ -47,6 +47,7 @@ def test_rows_beyond_the_ladder_fall_in_line_with_it_and_are_marked_as_not_judge
     assert not {row["dt"] for row in found} & ran
     assert all(row["seconds_min"] == pytest.approx(row["steps"] * 5e-4) for row in found)
     assert all(row["steps_per_second"] == pytest.approx(2e3) for row in found)
+    assert all(row["error_per_us"] == pytest.approx(row["error"] / row["steps"] / 500) for row in found)
     assert any("fewer than 11 steps" in note and SCENE.full_name in note for note in notes)
     first = [row for row in found if row["observable"] == SCENE.observables[0].name]
     coarser, finer = first[-2:]  # the coarsest steps of all lie above the range where the order shows

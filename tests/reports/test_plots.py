@@ -57,6 +57,8 @@ def test_each_scheme_is_one_line_over_its_steps_with_its_configuration_on_hover(
     rows.sort(key=lambda row: row["dt"])
     np.testing.assert_allclose(rk4["x"], [row["seconds_median"] for row in rows], rtol=1e-5)
     np.testing.assert_allclose(rk4["y"], [row["error"] for row in rows], rtol=1e-5)
+    (line,) = (line for line in figure(results)["lines"] if line["trace"]["name"] == "mujoco RK4")
+    np.testing.assert_allclose(line["least"], [row["seconds_min"] for row in rows], rtol=1e-5)
     told = [(float(dt), steps) for dt, steps, _ in rk4["customdata"]]
     assert told == [(row["dt"], row["steps"]) for row in rows]
     assert rk4["customdata"][0][2].split("; ")[0].endswith("10 repeats")

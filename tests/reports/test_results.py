@@ -59,6 +59,14 @@ def test_a_row_tells_how_fast_that_was(found):
     assert row["steps_per_second"] == pytest.approx(row["steps"] / row["seconds_min"])
     assert row["steps_per_second"] == pytest.approx(1e6 / row["us_per_step"])
     assert row["real_time"] == pytest.approx(row["steps_per_second"] * row["dt"])
+    assert row["error_per_us"] == pytest.approx(row["error"] / row["steps"] / row["us_per_step"])
+
+
+def test_where_no_time_was_taken_or_no_error_is_finite_no_pace_is_told(found):
+    row = found["work_precision"][0]
+    untimed = results.with_time(row, dict.fromkeys(results.TIMES))
+    assert untimed["steps_per_second"] is untimed["real_time"] is untimed["error_per_us"] is None
+    assert results.with_time({**row, "error": None}, TIMING)["error_per_us"] is None
 
 
 def test_memory_and_size_of_the_log_survive_a_second_report(found):
