@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 from . import __version__
 from .reference.errors import InputError, PoinsotError, UnavailableError
+from .telling import remark, tell
 
 app = App(
     name="poinsot",
@@ -83,7 +84,7 @@ def run(
     folder = output_folder(out)
     command = shlex.join(["poinsot", *_arguments()])
     expected = estimate(laid, workers or cores(), cores(), timing, *machine(cores()))
-    sys.stderr.write(f"{expected}\n")
+    remark(str(expected))
     with bar(expected) as progress:
         found = run_all(laid, folder, command, workers or cores(), time_limit, timing, progress, expected)
     _show(found, folder)
@@ -135,7 +136,7 @@ def stability(
     command = shlex.join(["poinsot", *_arguments()])
     with bar() as progress:
         found = sweep(laid, folder, command, workers or cores(), time_limit, progress)
-    print(swept(found, folder))  # noqa: T201 (the outcome of a sweep)
+    tell(swept(found, folder))
     return exit_code(found)
 
 
@@ -192,7 +193,7 @@ def compare(old: Path, new: Path) -> int:
             raise InputError(f"compare: got {path}, which is not there; expected what `poinsot run` wrote")
     before, after = map(results.read, files)
     found = comparison.compared(before, after)
-    print(comparison.as_text(found))  # noqa: T201 (this is what the command is for)
+    tell(comparison.as_text(found))
     return 0 if found.same else 1
 
 
@@ -207,7 +208,7 @@ def explain(number: int | None = None) -> int:
     """
     from .explain import explained, listed
 
-    print(listed() if number is None else explained(number))  # noqa: T201 (this is what the command is for)
+    tell(listed() if number is None else explained(number))
     return 0
 
 
@@ -217,7 +218,7 @@ def doctor() -> int:
     from .doctor import examine
 
     text, sound = examine()
-    print(text)  # noqa: T201 (this is what the command is for)
+    tell(text)
     return 0 if sound else 3
 
 
@@ -251,11 +252,11 @@ def _propose(found: dict[str, Any], folder: Path) -> None:
         path = folder / "known_deviations.proposed.toml"
         path.write_text(text, encoding="utf-8")
     said = f"proposed changes to the known deviations: {path}" if text else "nothing to propose"
-    print(said)  # noqa: T201 (this is what was asked for)
+    tell(said)
 
 
 def _complain(text: str, code: int) -> int:
-    sys.stderr.write(f"poinsot: {' '.join(text.split())}\n")
+    remark(f"poinsot: {' '.join(text.split())}")
     return code
 
 
@@ -266,4 +267,4 @@ def _arguments() -> list[str]:
 def _show(found: dict[str, Any], folder: Path) -> None:
     from .listing import outcome
 
-    print(outcome(found, folder))  # noqa: T201 (the outcome of a run)
+    tell(outcome(found, folder))

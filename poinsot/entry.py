@@ -6,6 +6,7 @@ import sys
 from typing import NoReturn
 
 from .reference.errors import PoinsotError
+from .telling import remark
 
 
 def process() -> NoReturn:
@@ -14,7 +15,7 @@ def process() -> NoReturn:
         sys.exit(main())
     gc.disable()  # it would look through thousands of new objects, all of which stay
     code = main()
-    sys.stdout.flush()
+    print(end="", flush=True)  # noqa: T201 (what is still on its way)
     # Python would take the scenes apart before the process ends with them: a tenth of the list's time.
     os._exit(code)
 
@@ -30,7 +31,7 @@ def main() -> int:
         except PoinsotError:
             pass  # The whole command line comes to it again, and tells what it means.
         except KeyboardInterrupt:
-            sys.stderr.write("poinsot: interrupted\n")
+            remark("poinsot: interrupted")
             return 130
     from . import command_line
 

@@ -11,6 +11,7 @@ from .adapters.engine import Scheme
 from .scenarios.families import FAMILIES
 from .scenarios.registry import scenes
 from .scenarios.scene import Scene
+from .telling import tell
 
 #: Sentences shown in a terminal before the reader is sent to the report.
 SHOWN = 12
@@ -18,7 +19,7 @@ SHOWN = 12
 
 def printed(*, as_json: bool) -> int:
     """Print what there is to run, as JSON or in words; 0, as a command that went well ends."""
-    print(json_text() if as_json else as_text())  # noqa: T201 (this is what the command is for)
+    tell(json_text() if as_json else as_text())
     return 0
 
 

@@ -147,19 +147,19 @@ def _time(row: Record) -> str:
     if row["seconds_median"] is None:
         return "not timed"
     spread = f"least {number(row['seconds_min'])} s" if row["seconds_min"] is not None else "least not kept"
-    pace = _pace(row["seconds_min"], row["steps"], row["dt"])
-    call = f"; {row['us_per_call']:.2f} µs of Python in a call" if row.get("us_per_call") is not None else ""
-    return (
-        f"median {number(row['seconds_median'])} s, {spread}, {count(row['repeats'], 'repeat')}{pace}{call}"
-    )
+    lines = [f"median {number(row['seconds_median'])} s, {spread}, {count(row['repeats'], 'repeat')}"]
+    lines += _pace(row["seconds_min"], row["steps"], row["dt"])
+    if row.get("us_per_call") is not None:
+        lines.append(f"{row['us_per_call']:.2f} µs of Python in a call")
+    return "<br>".join(lines)
 
 
-def _pace(seconds: float | None, steps: int, dt: float) -> str:
-    """How fast that is, a step and against the clock."""
+def _pace(seconds: float | None, steps: int, dt: float) -> list[str]:
+    """How fast that is, a step and against the clock, in one line or none."""
     if not seconds or not steps:
-        return ""
+        return []
     each = seconds / steps
-    return f"; {each * 1e6:.3g} µs a step, {1 / each:.3g} steps a second, {dt / each:.3g} × real time"
+    return [f"{each * 1e6:.3g} µs a step, {1 / each:.3g} steps a second, {dt / each:.3g} × real time"]
 
 
 def _not_drawn(rows: list[Record], x: str) -> str:

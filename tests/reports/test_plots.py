@@ -61,7 +61,7 @@ def test_each_scheme_is_one_line_over_its_steps_with_its_configuration_on_hover(
     np.testing.assert_allclose(line["least"], [row["seconds_min"] for row in rows], rtol=1e-5)
     told = [(float(dt), steps) for dt, steps, _ in rk4["customdata"]]
     assert told == [(row["dt"], row["steps"]) for row in rows]
-    assert rk4["customdata"][0][2].split("; ")[0].endswith("10 repeats")
+    assert rk4["customdata"][0][2].split("<br>")[0].endswith("10 repeats")
     assert rk4["customdata"][0][2].endswith("× real time")
     assert "mujoco 4.0.0, RK4" in [line["who"] for line in figure(results)["lines"]]
 
