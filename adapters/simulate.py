@@ -45,13 +45,13 @@ def simulate(
     is ``asked``, and unless told otherwise where it is repeated, so do the engine's accelerations, and its
     largest stable step where theory has one.
     ``dt`` [s] is rounded to a whole number of steps between samples. Raises ``UnsupportedError``
-    if the engine lacks a feature, ``EngineError`` if it breaks down, ``InputError`` for a step out
-    of range.
+    if the engine lacks a feature or no scheme can take such a step, ``EngineError`` if it breaks down,
+    ``InputError`` for a step out of range.
     """
-    reason = unsupported(scene, engine, scheme)
+    dt = scene.whole_step(dt)
+    reason = unsupported(scene, engine, scheme) or scene.unfit(dt)
     if reason:
         raise UnsupportedError(f"scene {scene.full_name} with {engine.name} {scheme.name}: {reason}")
-    dt = scene.whole_step(dt)
     asked = repeats > 1 if asked is None else asked
     machine = engine()
     try:

@@ -137,23 +137,18 @@ def _add(
 ) -> None:
     reason = unsupported(scene, engine, scheme)
     if reason:
-        laid.records.append(
-            replace(
-                _left_out(scene, engine.name, Status.UNSUPPORTED, reason),
-                engine_version=engine.version(),
-                scheme=scheme.name,
-                twin=scheme.twin,
-                order=scheme.order,
-            )
-        )
+        laid.records.append(_without(scene, engine, scheme, scene.dt, reason))
         return
     taken = list(_steps(scene, steps))
-    own = _own_step(scene.full_name, [dt for _, dt in taken])
+    own = _own_step(scene.full_name, [dt for _, dt in taken if not scene.unfit(dt)] or [scene.dt])
     for asked, dt in taken:
         if dt != asked:
             laid.notes.append(
                 f"{scene.full_name}: dt {asked:g} s rounded to {dt:g} s, whole steps between samples."
             )
+        if reason := scene.unfit(dt):
+            laid.records.append(_without(scene, engine, scheme, dt, reason))
+            continue
         repeats = REPEATS if dt == own and twice else 1
         record = CellRecord(
             scene=scene.full_name,
@@ -182,6 +177,18 @@ def _steps(scene: Scene, steps: Sequence[float]) -> Iterator[tuple[float, float]
     asked = {scene.whole_step(dt): dt for dt in steps}
     for dt in sorted(asked, reverse=True):
         yield asked[dt], dt
+
+
+def _without(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float, reason: str) -> CellRecord:
+    """What cannot be run, of an engine that is there."""
+    return replace(
+        _left_out(scene, engine.name, Status.UNSUPPORTED, reason),
+        engine_version=engine.version(),
+        scheme=scheme.name,
+        twin=scheme.twin,
+        order=scheme.order,
+        dt=dt,
+    )
 
 
 def _left_out(scene: Scene, engine: str, status: Status, reason: str) -> CellRecord:

@@ -34,7 +34,7 @@ def affordable(scene: Scene, scheme: Scheme, seconds_per_step: float) -> tuple[f
     return tuple(
         dt
         for dt in wide_ladder(scene, scheme)
-        if scene.samples * scene.steps_per_sample(dt) * seconds_per_step <= LONGEST
+        if scene.samples * scene.steps_per_sample(dt) * seconds_per_step <= LONGEST and not scene.unfit(dt)
     )
 
 

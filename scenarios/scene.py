@@ -23,6 +23,9 @@ from .trajectory import Trajectory
 Truth = Callable[["Scene", Array], Trajectory]
 SchemeMotion = Callable[["Scene", str, float, Array], Trajectory | None]
 StableStep = Callable[["Scene", str], float | None]
+#: No step comes nearer to a singular time than this, as a part of itself: what rounding is divided by there
+#: stays so large that schemes of fourth order keep their order at the steps of ladders.
+NEAR = 0.1
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,7 @@ class Scene:
     ``burning`` bodies lose mass.
     ``defaults`` asks engines to leave what they add by themselves, motors too, and contacts as they come.
     ``reactions`` names the bodies whose joints' reactions are measured, as ``Trajectory.reaction`` has them.
+    At ``singular_times`` [s] the equations of the joints have no solution: no step may come to one of them.
 
     ``truth(scene, t)`` is the exact motion; ``scheme_motion(scene, twin, dt, t)`` the exact motion
     *of a scheme*, where it is known in closed form (``None`` from it: not for this scheme).
@@ -103,6 +107,7 @@ class Scene:
     burning: tuple[Burning, ...] = ()
     reactions: tuple[str, ...] = ()
     defaults: bool = False
+    singular_times: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         try:
@@ -153,6 +158,17 @@ class Scene:
         exact = self.duration / self.samples / self.steps_per_sample(dt)
         return dt if abs(dt / exact - 1) < 1e-12 else exact
 
+    def unfit(self, dt: float) -> str:
+        """Why no scheme can take steps of ``dt`` [s], or an empty text if one can."""
+        for time in self.singular_times:
+            halves = 2 * time / dt  # schemes look at the middle of a step as well
+            if abs(halves - round(halves)) / 2 < NEAR:
+                return (
+                    f"a step of {dt:.6g} s comes to {time:.6g} s, where the equations of the joints have no "
+                    "solution"
+                )
+        return ""
+
     def error_constant(self, twin: str, observable: Observable) -> float | None:
         """The recorded C of C·dt^order for a scheme, or ``None`` where none is recorded."""
         row = self.errors.get(twin)
@@ -180,7 +196,7 @@ class Scene:
     def as_json(self) -> str:
         """The scene as JSON, stable from run to run: what the log keeps and a reader compares."""
         judged = {"truth", "observables", "scheme_motion", "stable_step", "errors", "ladders", "soft"}
-        skipped = judged | {"pictures"}
+        skipped = judged | {"pictures", "singular_times"}
         plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in skipped}
         plain["observables"] = [observable.name for observable in self.observables]
         for later in (

@@ -1,5 +1,6 @@
 """One cell: every sample where it belongs, copied, hashed, and nothing left open."""
 
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -171,6 +172,13 @@ def test_a_scheme_may_lack_what_its_engine_has():
     assert unsupported(SCENE, Drifting, lacking) == "it has no springs; one body at a time"
     same = Scheme("lazy", 1, "", dict.fromkeys(("spring", "tree"), "free bodies only"))
     assert unsupported(SCENE, Drifting, same) == "free bodies only"
+
+
+def test_a_step_that_no_scheme_can_take_is_refused_before_anything_is_built(calls):
+    singular = replace(SCENE, singular_times=(SCENE.duration / 2,))
+    with pytest.raises(UnsupportedError, match=r"with drifting steady: a step of .* comes to"):
+        simulate(singular, Drifting, SCHEME, SCENE.dt)
+    assert calls() == []
 
 
 @pytest.mark.parametrize("dt", [0.0, -1e-3, float("nan"), 100.0])

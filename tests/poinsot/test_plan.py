@@ -3,6 +3,7 @@
 from collections import Counter
 
 import pytest
+from poinsot.reports.verdict import Status
 from poinsot.scenarios.registry import scenes, select
 
 from poinsot.plan import Extent, plan
@@ -40,6 +41,19 @@ def test_one_cell_of_each_scheme_is_asked_everything_and_run_twice_for_its_deter
 def test_every_step_that_is_named_is_run_twice_where_it_is_the_nearest():
     laid = plan(select([LADDER, ALONE]), ["pinocchio"], ["semi-implicit Euler"], [2e-3, 1e-3], Extent.USUAL)
     assert [request.repeats for request in laid.requests.values()] == [1, 2, 1, 2]
+
+
+def test_a_step_that_no_scheme_can_take_is_left_out_with_its_reason_and_the_others_run():
+    names = ["euler_angles[general]", "euler_angles[through zero]"]
+    laid = plan(select(names), ["pinocchio"], ["RKMK4"], [5e-3, 1e-3], Extent.WHOLE)
+    assert [(scene, round(dt, 6)) for scene, _, _, dt in laid.requests] == [
+        (names[0], 5.333e-3),
+        (names[0], 1e-3),
+        (names[1], 1e-3),
+    ]
+    (record,) = (record for record in laid.records if record.key not in laid.requests)
+    assert (record.status, round(record.dt, 6), record.scheme) == (Status.UNSUPPORTED, 5.333e-3, "RKMK4")
+    assert "a step of 0.00533333 s comes to 0.602667 s" in record.message
 
 
 def test_a_quick_run_of_everything_takes_the_first_variant_of_each_scene():

@@ -147,6 +147,23 @@ def test_a_step_that_fits_but_for_rounding_stays_as_it_was_asked_for():
     assert made.whole_step(0.02) == 0.02
 
 
+@pytest.mark.parametrize("dt", [0.02, 0.04, 0.02 + 1e-4, 0.02 - 1e-4])
+def test_no_step_nor_half_of_one_may_come_to_a_singular_time(dt):
+    made = scene(singular_times=(0.9, 0.1))
+    assert f"a step of {dt:g} s comes to 0." in made.unfit(dt)
+    assert scene().unfit(dt) == ""
+
+
+def test_steps_that_keep_away_from_singular_times_are_fit():
+    assert scene(singular_times=(0.11,)).unfit(0.03) == ""
+
+
+def test_every_step_of_a_ladder_is_fit():
+    for one in scenes().values():
+        steps = {one.dt, *(dt for ladder in one.ladders.values() for dt in ladder)}
+        assert [one.unfit(one.whole_step(dt)) for dt in steps] == [""] * len(steps), one.full_name
+
+
 # No deadline: how long an example takes says nothing of it.
 @settings(deadline=None)
 @given(st.floats(1e-7, 1.0))
