@@ -84,7 +84,7 @@ def run(
     folder = output_folder(out)
     command = shlex.join(["poinsot", *_arguments()])
     expected = estimate(laid, workers or cores(), cores(), timing, *machine(cores()))
-    remark(str(expected))
+    remark("\n".join([*laid.adjusted, str(expected)]))
     with bar(expected) as progress:
         found = run_all(laid, folder, command, workers or cores(), time_limit, timing, progress, expected)
     _show(found, folder)

@@ -67,17 +67,19 @@ def as_text() -> str:
 def outcome(found: Mapping[str, Any], folder: Path) -> str:
     """How a run ended: counts, a sentence for what is not a pass, and where the report lies."""
     from .reports.common_causes import spoken  # a list of scenes needs no reports
+    from .reports.wording import count
 
     counts = Counter(cell["status"] for cell in found["cells"])
-    lines = [
-        f"{sum(counts.values())} cells: " + ", ".join(f"{n} {status}" for status, n in counts.most_common())
-    ]
+    said = ", ".join(f"{n} {status}" for status, n in counts.most_common())
+    lines = [f"{count(sum(counts.values()), 'cell')}: {said}"]
     lines += [f"most likely: {spoken(cause)}" for cause in found.get("likely_causes", ())][:SHOWN]
     wrong = list(dict.fromkeys(line for cell in found["cells"] for line in _complaints(cell)))
     lines += wrong[:SHOWN]
     if len(wrong) > SHOWN:
         lines.append(f"… and {len(wrong) - SHOWN} more, in the report")
-    return "\n".join([*lines, *found["stale_deviations"], f"report: {folder / 'report.html'}"])
+    lines += found["stale_deviations"]
+    lines += [note for note in found["notes"] if note.startswith("Loose timing")]
+    return "\n".join([*lines, f"report: {folder / 'report.html'}"])
 
 
 def swept(found: Mapping[str, Any], folder: Path) -> str:

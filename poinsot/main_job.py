@@ -242,9 +242,9 @@ def _quality(timings: Sequence[Timing]) -> list[str]:
         )
     ]
     if not all(timing.pinned for timing in timings):
-        said.append("Timing: this system keeps no process on one core, so that times spread more.")
+        said.append("Loose timing: this system keeps no process on one core, so that times spread more.")
     if runner.cores() == 1:
-        said.append("Timing: there is one core, which whatever else runs here shares.")
+        said.append("Loose timing: there is one core, which whatever else runs here shares.")
     return said
 
 

@@ -1,7 +1,7 @@
 """Which cells a run consists of, and which it must leave out, with the reason."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import log2
@@ -10,10 +10,12 @@ from .adapters import registry
 from .adapters.engine import Engine, Scheme, settings_in
 from .adapters.runner import Request
 from .adapters.simulate import unsupported
+from .reference.checked import positive
 from .reference.errors import InputError
 from .reference.spelling import nearest
 from .reports.results import CellRecord
 from .reports.verdict import Status
+from .reports.wording import count
 from .scenarios.registry import scenes as all_scenes
 from .scenarios.scene import Scene
 
@@ -40,6 +42,8 @@ class Plan:
     records: list[CellRecord] = field(default_factory=list)
     requests: dict[tuple[str, str, str, float], Request] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    #: What became of steps that were asked for and do not fit everywhere, a sentence each.
+    adjusted: list[str] = field(default_factory=list)
     #: Whether nothing is missing, scene, engine, scheme or step: every record must then find its check.
     whole: bool = False
     extent: Extent = Extent.WHOLE
@@ -56,8 +60,8 @@ def plan(
 
     No engines means all that Poinsot knows, no schemes all of theirs, no steps the scene's own step and,
     as far as the ``extent`` goes, each scheme's ladder. Raises ``InputError`` for a scheme that no
-    engine has and for a step that cannot be, ``UnavailableError`` for an engine that was named and is
-    not installed.
+    engine has, for a step that cannot be and where none fits any scene, ``UnavailableError`` for an
+    engine that was named and is not installed.
     """
     found, laid = _engines(engines), Plan(extent=extent)
     first = {scene.name: scene.full_name for scene in reversed(scenes)}
@@ -66,6 +70,7 @@ def plan(
         laid.notes.append("Of every scene the first variant alone was run; of one that is named, all are.")
     loaded = {spec: engine for spec, engine in found.items() if not isinstance(engine, str)}
     _check_schemes(schemes, loaded)
+    laid.adjusted = _adjusted(scenes, steps)
     for scene in scenes:
         for spec, engine in found.items():
             if isinstance(engine, str):
@@ -139,13 +144,14 @@ def _add(
     if reason:
         laid.records.append(_without(scene, engine, scheme, scene.dt, reason))
         return
-    taken = list(_steps(scene, steps))
-    own = _own_step(scene.full_name, [dt for _, dt in taken if not scene.unfit(dt)] or [scene.dt])
-    for asked, dt in taken:
-        if dt != asked:
-            laid.notes.append(
-                f"{scene.full_name}: dt {asked:g} s rounded to {dt:g} s, whole steps between samples."
-            )
+    taken = _steps(scene, steps)
+    own = _own_step(scene.full_name, [dt for dt in taken if not scene.unfit(dt)] or [scene.dt])
+    for dt, asked in taken.items():
+        laid.notes += [
+            f"{scene.full_name}: dt {other:g} s rounded to {dt:g} s, whole steps between samples."
+            for other in asked
+            if other != dt
+        ]
         if reason := scene.unfit(dt):
             laid.records.append(_without(scene, engine, scheme, dt, reason))
             continue
@@ -172,11 +178,40 @@ def _wanted(scene: Scene, scheme: Scheme, extent: Extent, first: Mapping[str, st
     return (*scene.ladder(scheme.order, scheme.twin), scene.dt) if has_ladder else (scene.dt,)
 
 
-def _steps(scene: Scene, steps: Sequence[float]) -> Iterator[tuple[float, float]]:
-    """Each step asked for with the one it is rounded to, from the coarsest, none twice."""
-    asked = {scene.whole_step(dt): dt for dt in steps}
-    for dt in sorted(asked, reverse=True):
-        yield asked[dt], dt
+def _steps(scene: Scene, steps: Sequence[float]) -> dict[float, list[float]]:
+    """The steps [s] to take, from the coarsest, each with those asked for that are rounded to it."""
+    taken = defaultdict[float, list[float]](list)
+    for dt in steps:
+        taken[_nearest(scene, dt)].append(dt)
+    return dict(sorted(taken.items(), reverse=True))
+
+
+def _nearest(scene: Scene, dt: float) -> float:
+    """The step [s] that ``dt`` is rounded to; one that is longer than the run stays, and is left out."""
+    return dt if dt > scene.duration * (1 + 1e-12) else scene.whole_step(dt)
+
+
+def _adjusted(scenes: Sequence[Scene], steps: Sequence[float]) -> list[str]:
+    """A sentence on each step asked for that is rounded somewhere, and on each that is left out.
+
+    Raises ``InputError`` for a step that is none, and where no scene has a use for any.
+    """
+    said, fits = list[str](), not steps
+    for dt in steps:
+        positive("dt", dt)
+        taken = [(scene, _nearest(scene, dt)) for scene in scenes]
+        reasons = [reason for scene, step in taken if (reason := scene.unfit(step))]
+        rounded = {step for scene, step in taken if not scene.unfit(step)} - {dt}
+        if rounded:
+            ends = " to ".join(f"{end:g}" for end in sorted({min(rounded), max(rounded)}))
+            said.append(f"dt {dt:g} s is rounded to whole steps between samples: {ends} s")
+        if reasons:
+            where = "" if len(scenes) == 1 else f" in {count(len(reasons), 'variant')} of {len(scenes)}"
+            said.append(f"dt {dt:g} s is left out{where}: {reasons[0]}")
+        fits = fits or len(reasons) < len(scenes)
+    if not fits:
+        raise InputError(f"dt: nothing is left to run; {'; '.join(said)}")
+    return said
 
 
 def _without(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float, reason: str) -> CellRecord:

@@ -152,4 +152,5 @@ def diagonal(I1: float, I2: float, I3: float) -> Matrix:
 def _moments(inertia: Array) -> tuple[float, ...]:
     """Principal moments of a tensor with products; one of 0 would come out as a rounding of the others."""
     moments = np.linalg.eigvalsh(inertia)
-    return tuple(np.where(moments > TURNED * np.finfo(np.float64).eps * moments[2], moments, 0.0).tolist())
+    rounding = TURNED * np.finfo(np.float64).eps * abs(moments).max()
+    return tuple(np.where(abs(moments) > rounding, moments, 0.0).tolist())

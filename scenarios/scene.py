@@ -26,6 +26,8 @@ StableStep = Callable[["Scene", str], float | None]
 #: No step comes nearer to a singular time than this, as a part of itself: what rounding is divided by there
 #: stays so large that schemes of fourth order keep their order at the steps of ladders.
 NEAR = 0.1
+#: Most steps of a run: engines count them in 32 bits.
+MOST = 2**31 - 1
 
 
 @dataclass(frozen=True)
@@ -160,6 +162,10 @@ class Scene:
 
     def unfit(self, dt: float) -> str:
         """Why no scheme can take steps of ``dt`` [s], or an empty text if one can."""
+        if dt > self.duration * (1 + 1e-12):
+            return f"a step of {dt:.6g} s is longer than the whole run, {self.duration:g} s"
+        if self.duration / dt > MOST:
+            return f"a run in steps of {dt:.6g} s takes {self.duration / dt:.2g} of them, at most {MOST} fit"
         for time in self.singular_times:
             halves = 2 * time / dt  # schemes look at the middle of a step as well
             if abs(halves - round(halves)) / 2 < NEAR:
@@ -211,8 +217,8 @@ class Scene:
         positive("duration", self.duration)
         positive("dt", self.dt)
         finite("gravity", self.gravity, (3,))
-        if self.samples < 1:
-            raise InputError(f"samples: got {self.samples}, expected at least 1")
+        if not isinstance(self.samples, int) or self.samples < 1:
+            raise InputError(f"samples: got {self.samples}, expected a whole number, at least 1")
         for twin, row in self.errors.items():
             if len(row) != len(self.observables):
                 raise InputError(

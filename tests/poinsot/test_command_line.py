@@ -71,7 +71,7 @@ def complaint(capsys, *arguments):
         (["run", TOP, "--dt", "0"], "above 0"),
         (["run", TOP, "--dt", "-1e-3"], "above 0"),
         (["run", TOP, "--dt", "nan"], "finite"),
-        (["run", TOP, "--dt", "11"], "at most 10 s"),
+        (["run", TOP, "--dt", "11"], "longer than the whole run, 10 s"),
         (["run", TOP, "--dt", "fast"], "fast"),
         (["run", TOP, "--workers", "0"], "at least 1"),
         (["run", TOP, "--time-limit", "0"], "above 0"),

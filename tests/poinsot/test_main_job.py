@@ -6,7 +6,7 @@ import pytest
 from poinsot.adapters import runner
 from poinsot.adapters.timing import Timing
 
-from poinsot import main_job
+from poinsot import listing, main_job
 
 STEADY = Timing(100, 100, (1.0, 1.1, 1.2), beat=1e-3)
 
@@ -26,3 +26,10 @@ def test_how_far_timings_can_be_trusted_is_said(monkeypatch, timings, cores, sai
     found = main_job._quality(timings)
     assert len(found) == len(said)
     assert all(words in sentence for words, sentence in zip(said, found, strict=True))
+
+
+def test_what_makes_timings_loose_is_told_at_the_end_of_a_run(monkeypatch, tmp_path):
+    monkeypatch.setattr(runner, "cores", lambda: 1)
+    found = {"cells": [], "stale_deviations": [], "notes": main_job._quality([STEADY])}
+    _, loose, _ = listing.outcome(found, tmp_path).splitlines()
+    assert "there is one core" in loose

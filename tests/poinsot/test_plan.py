@@ -3,6 +3,7 @@
 from collections import Counter
 
 import pytest
+from poinsot.reference.errors import InputError
 from poinsot.reports.verdict import Status
 from poinsot.scenarios.registry import scenes, select
 
@@ -54,6 +55,31 @@ def test_a_step_that_no_scheme_can_take_is_left_out_with_its_reason_and_the_othe
     (record,) = (record for record in laid.records if record.key not in laid.requests)
     assert (record.status, round(record.dt, 6), record.scheme) == (Status.UNSUPPORTED, 5.333e-3, "RKMK4")
     assert "a step of 0.00533333 s comes to 0.602667 s" in record.message
+
+
+def test_what_becomes_of_steps_that_do_not_fit_is_said_of_each():
+    names = ["stiff_spring", LADDER]
+    laid = plan(select(names), ["pinocchio"], ["semi-implicit Euler"], [0.01, 3e-4, 3.01e-4], Extent.WHOLE)
+    assert laid.adjusted == [
+        "dt 0.01 s is left out in 1 variant of 2: a step of 0.01 s is longer than the whole run, 0.0032 s",
+        "dt 0.0003 s is rounded to whole steps between samples: 8e-05 to 0.000300752 s",
+        "dt 0.000301 s is rounded to whole steps between samples: 8e-05 to 0.000300752 s",
+    ]
+    assert sum("rounded to" in note for note in laid.notes) == 4
+    left_out = [(r.scene, r.dt) for r in laid.records if r.status is Status.UNSUPPORTED]
+    assert left_out == [("stiff_spring", 0.01)]
+
+
+@pytest.mark.parametrize(("names", "dt"), [(["stiff_spring"], 0.01), ([LADDER, ALONE], 1e-12)])
+def test_where_no_step_fits_there_is_nothing_to_run(names, dt):
+    with pytest.raises(InputError, match=r"dt: nothing is left to run; dt .* is left out"):
+        plan(select(names), ["pinocchio"], [], [dt], Extent.WHOLE)
+
+
+@pytest.mark.parametrize("dt", [0.0, -1e-3, float("nan")])
+def test_a_step_is_a_number_above_0(dt):
+    with pytest.raises(InputError, match="dt: got"):
+        plan(select([LADDER]), ["pinocchio"], [], [1e-3, dt], Extent.WHOLE)
 
 
 def test_a_quick_run_of_everything_takes_the_first_variant_of_each_scene():

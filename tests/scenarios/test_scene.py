@@ -42,7 +42,9 @@ def scene(**changes):
         ({"duration": 0.0}, "duration: got 0.0, expected a number above 0"),
         ({"duration": float("nan")}, "duration"),
         ({"dt": -1e-3}, "dt: got -0.001"),
-        ({"samples": 0}, "samples: got 0, expected at least 1"),
+        ({"samples": 0}, "samples: got 0, expected a whole number, at least 1"),
+        ({"samples": float("nan")}, "samples: got nan"),
+        ({"samples": 1.5}, "samples: got 1.5"),
         ({"gravity": (0.0, float("inf"), 0.0)}, "gravity"),
         ({"q0": (0.1, 0.0, 0.0, 0.6, 0.8)}, "q0: got an array of shape (5,), expected (6,)"),
         ({"v0": (0.0,) * 6}, "v0: got an array of shape (6,), expected (5,)"),
@@ -152,6 +154,14 @@ def test_no_step_nor_half_of_one_may_come_to_a_singular_time(dt):
     made = scene(singular_times=(0.9, 0.1))
     assert f"a step of {dt:g} s comes to 0." in made.unfit(dt)
     assert scene().unfit(dt) == ""
+
+
+@pytest.mark.parametrize(
+    ("dt", "says"), [(1.1, "longer than the whole run, 1 s"), (1e-10, "1e+10 of them, at most 2147483647")]
+)
+def test_a_step_must_be_shorter_than_the_run_and_not_of_too_many(dt, says):
+    assert says in scene().unfit(dt)
+    assert scene().unfit(1.0) == scene().unfit(1e-9) == ""
 
 
 def test_steps_that_keep_away_from_singular_times_are_fit():
