@@ -1,5 +1,6 @@
 """A run looked at whatever becomes of it: past the stable step, past the finite numbers."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,8 +35,9 @@ def observe(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float, most:
 
     Never raises what an engine raises: that is what is observed.
     """
-    stride = max(1, round(min(scene.duration / dt, most) / SAMPLES))
-    steps = stride * SAMPLES
+    # Less a rounding error, so that a duration of n steps takes n.
+    steps = max(SAMPLES, min(math.ceil(scene.duration / dt * (1 - 1e-12)), most))
+    looks = np.arange(SAMPLES + 1) * steps // SAMPLES
     reason = unsupported(scene, engine, scheme)
     if reason:
         return Observed(dt, steps, None, reason)
@@ -46,22 +48,23 @@ def observe(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float, most:
         machine.close()
         return Observed(dt, steps, None, str(error))
     try:
-        states, said = _watched(machine, stride)
+        states, said = _watched(machine, np.diff(looks).tolist())
     finally:
         machine.close()
-    t = np.asarray(np.arange(len(states)) * (stride * dt), dtype=np.float64)
+    t = np.asarray(looks[: len(states)] * dt, dtype=np.float64)
     parts = (np.array(part) for part in zip(*states, strict=True))
     return Observed(dt, steps, Trajectory(t, *State(*parts)), said)
 
 
-def _watched(machine: Engine, stride: int) -> tuple[list[State], str]:
+def _watched(machine: Engine, strides: list[int]) -> tuple[list[State], str]:
+    """States at the start and after each of ``strides``, numbers of steps."""
     states: list[State] = []
     said = ""
     # Numbers that leave the range of doubles are what is watched for.
     with np.errstate(all="ignore"):
-        for sample in range(SAMPLES + 1):
+        for stride in [0, *strides]:
             try:
-                if sample:
+                if stride:
                     machine.step(stride)
                 state, complaint = looked(machine)
             except (EngineError, InputError, ArithmeticError, ValueError) as error:

@@ -104,6 +104,9 @@ def stability(
 ) -> int:
     """Sweep families of scenes to their extremes: stability maps, and the largest stable step of each scheme.
 
+    Runs of small steps are cut short, most of them after 4000 steps; `covered` in stability.json and a white
+    corner in the maps say of which that may change the outcome.
+
     Parameters
     ----------
     family

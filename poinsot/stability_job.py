@@ -18,7 +18,7 @@ from .main_job import Progress
 from .reference.errors import InputError
 from .reference.spelling import nearest
 from .reports import deviations, stability, stability_results, stored
-from .reports.outcomes import Found, Outcome, judged
+from .reports.outcomes import LONGEST, Found, Outcome, judged
 from .reports.stability_results import Sweep
 from .reports.verdict import Verdict
 from .scenarios.families import Family, select
@@ -131,7 +131,10 @@ def _worked(point: Point) -> Found | StableStep:
     )
     scheme = registry.scheme_of(engine, point.scheme)
     if point.dt is not None:
-        return judged(scene, observe(scene, engine, scheme, point.dt, family.most))
+        found = judged(scene, observe(scene, engine, scheme, point.dt, family.most))
+        if found.doubtful and scene.duration / point.dt <= LONGEST:
+            return judged(scene, observe(scene, engine, scheme, point.dt, LONGEST))
+        return found
     machine = engine()
     try:
         return stable_step(machine, scene, scheme)

@@ -14,6 +14,9 @@ from ..scenarios.trajectory import Trajectory
 
 #: A run is accurate while no state observable is further from the truth than this part of its size.
 ACCURATE = 0.05
+#: Steps within which a run that was cut short is run to its end, if its outcome is in doubt: the schemes of
+#: first order cease to be accurate on tops at steps of which the scenes last less than this.
+LONGEST = 70_000
 #: A clamp holds a speed at one value: so long a part of the run, to rounding, and so far from the truth's.
 HELD, ROUNDING, APART = 0.5, 1e-12, 0.1
 #: What has died down to this part of the truth's largest may stay at one value for want of smaller numbers.
@@ -60,7 +63,8 @@ class Found:
     """An outcome with its numbers, each ``None`` where there is none or it is not finite.
 
     ``error`` is the largest, relative to each observable's size; ``energy_most`` and ``energy_last`` are in
-    units of the start's energy. ``said``: the engine's own words.
+    units of the start's energy. ``said``: the engine's own words. ``covered``: how much of the scene's
+    duration the run has seen, 1 if all.
     """
 
     outcome: Outcome
@@ -68,6 +72,27 @@ class Found:
     energy_most: float | None = None
     energy_last: float | None = None
     said: str = ""
+    covered: float | None = None
+
+    @property
+    def so_far(self) -> bool:
+        """Whether the run was cut short in a state of which a longer one might tell another outcome."""
+        return unfinished(self.outcome, self.covered)
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether it was accurate so far, and is not at its end if its error grows as the time squared.
+
+        So errors grow of first order whose rates drift: the phase is off by what the rates lost, summed up.
+        """
+        if not self.so_far or self.error is None or not self.covered:
+            return False
+        return self.outcome is Outcome.ACCURATE and self.error > ACCURATE * self.covered**2
+
+
+def unfinished(outcome: Outcome, covered: float | None) -> bool:
+    """Whether an outcome is one that the rest of the scene might change, and there is a rest."""
+    return outcome in (Outcome.ACCURATE, Outcome.BOUNDED) and covered is not None and covered < 1
 
 
 def judged(scene: Scene, observed: Observed) -> Found:
@@ -83,7 +108,9 @@ def judged(scene: Scene, observed: Observed) -> Found:
         ended = len(motion.t) > SAMPLES
         outcome = _outcome(motion, truth, energies, error, ended)
     most, last = float(np.max(energies)), float(energies[-1])
-    return Found(outcome, _finite(error), _finite(most), _finite(last), observed.said)
+    covered = float(motion.t[-1]) / scene.duration
+    covered = covered if covered < 1 - 1e-9 else 1.0
+    return Found(outcome, _finite(error), _finite(most), _finite(last), observed.said, covered)
 
 
 def _outcome(motion: Trajectory, truth: Trajectory, energies: Array, error: float, ended: bool) -> Outcome:

@@ -7,7 +7,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from .outcomes import Outcome
+from .outcomes import Outcome, unfinished
 from .wording import number, printable
 
 #: A sign and a colour each, told apart without the other: the colours are Okabe and Ito's, and paler ones.
@@ -25,6 +25,8 @@ SIGNS: dict[Outcome, tuple[str, str]] = {
 #: Sizes of a cell and of the margins that hold the labels [px].
 WIDTH, HEIGHT, LEFT, TOP, BOTTOM, RIGHT = 28, 17, 34, 18, 34, 8
 SAID = 120
+#: Legs of the white corner of a run that was cut short [px].
+CORNER = 9
 
 
 def picture(found: Mapping[str, Any], family: Mapping[str, Any]) -> Markup:
@@ -54,15 +56,22 @@ def _cell(point: Mapping[str, Any], values: Sequence[float], steps: Sequence[flo
     glyph, colour = SIGNS[outcome]
     x, y = _left(values.index(point["value"])), _top(steps.index(point["dt"]), steps)
     told = f"{point['value']:g}, dt {point['dt']:g} s: {outcome.value}"
+    if point["covered"] is not None and point["covered"] < 1:
+        told += f", after {point['covered']:.2g} of its scene"
     if point["error"] is not None:
         told += f"; error {number(point['error'])}, energy up to {number(point['energy_most'])}"
         told += f" and at the end {number(point['energy_last'])} of the start's"
     if point["said"]:
         told += f"; {printable(point['said'])[:SAID]}"
+    right, low = x + WIDTH - 1, y + HEIGHT - 1
+    corner = Markup('<path d="M{0} {1}v-{2}l-{2} {2}z" class="so-far"/>').format(right, low, CORNER)
     return Markup(
-        '<g><title>{0}</title><rect x="{1}" y="{2}" width="{3}" height="{4}" fill="{5}"/>'
+        '<g><title>{0}</title><rect x="{1}" y="{2}" width="{3}" height="{4}" fill="{5}"/>{9}'
         '<text x="{6}" y="{7}" class="glyph">{8}</text></g>'
-    ).format(told, x, y, WIDTH - 1, HEIGHT - 1, colour, x + WIDTH / 2, y + HEIGHT - 5, glyph)
+    ).format(
+        told, x, y, WIDTH - 1, HEIGHT - 1, colour, x + WIDTH / 2, y + HEIGHT - 5, glyph,
+        corner if unfinished(outcome, point["covered"]) else "",
+    )  # fmt: skip
 
 
 def _labels(values: Sequence[float], steps: Sequence[float], parameter: str) -> list[Markup]:

@@ -11,9 +11,9 @@ from typing import Any
 from markupsafe import Markup
 
 from . import templating
-from .outcomes import Outcome
+from .outcomes import LONGEST, Outcome
 from .stability import TOLERANCE, between, deviation
-from .stability_map import picture, sign
+from .stability_map import SIGNS, picture, sign
 from .verdict import Status
 from .wording import number
 
@@ -56,6 +56,8 @@ def render(results: Mapping[str, Any], out: Path) -> None:
         picture=lambda found: picture(found, results["families"][found["family"]]),
         words=lambda found: _range([row["limit"] for row in found["theory"]]),
         tolerance=TOLERANCE,
+        longest=LONGEST,
+        accurate=SIGNS[Outcome.ACCURATE][1],
         not_passes=[verdict for verdict in verdicts if verdict["status"] != Status.PASS.value],
         Status=Status,
     )

@@ -18,8 +18,8 @@ class Family:
     """``scene(value)``, called ``name[value]``, for each of ``values``, to be run at each of ``steps`` [s].
 
     ``parameter`` says what is swept, with its unit. ``law`` says in a sentence where theory draws the line,
-    or why it draws none. A run takes ``most`` steps at the most: at the smallest ones it is then shorter than
-    its scene.
+    or why it draws none. A run is cut short after ``most`` steps: at the smallest ones it is then shorter
+    than its scene.
     """
 
     name: str

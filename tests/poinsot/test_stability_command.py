@@ -86,6 +86,18 @@ def test_one_that_hangs_and_one_that_dies_end_alone(own, tmp_path, capsys):
     assert (out / "stability.html").is_file()
 
 
+def test_a_run_that_is_accurate_only_so_far_goes_on(tmp_path):
+    out = tmp_path / "out"
+    arguments = ["--engine", "pinocchio", "--scheme", "semi-implicit Euler", "--out", str(out)]
+    assert main(["stability", "spin", *arguments]) == 0
+    (found,) = stability_results.read(out / "stability.json")["maps"]
+    points = {(point["value"], point["dt"]): point for point in found["points"]}
+    for place in ((10.0, 1e-4), (100.0, 1e-5)):
+        assert points[place]["outcome"] == "inaccurate but bounded"
+        assert points[place]["covered"] == 1
+    assert points[10.0, 1e-7]["covered"] == pytest.approx(4000 * 1e-7 / 3.2)
+
+
 def test_a_lie_about_a_scheme_ends_with_one(own, tmp_path, capsys):
     out = tmp_path / "out"
     assert main(["stability", "stiff_spring", "--engine", f"{own}:Liar", "--out", str(out)]) == 1

@@ -17,7 +17,7 @@ from poinsot.adapters.pinocchio_ import Pinocchio
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.reference.errors import InputError
 from poinsot.reports import stability_page
-from poinsot.reports.outcomes import Outcome, judged
+from poinsot.reports.outcomes import LONGEST, Outcome, judged
 from poinsot.scenarios import extreme_damper, extreme_gimbal, extreme_tops
 from poinsot.scenarios.stiff_spring import on_spring
 from wrong_engines.stability import ClampedSpring
@@ -259,6 +259,30 @@ def test_length_of_a_run():
     assert long.motion.t[-1] == pytest.approx(SCENE.duration)
     cut = observe(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.duration / 1e6, 4000)
     assert cut.steps == 4000
+
+
+def test_a_run_sees_all_of_its_scene_unless_it_is_cut_short():
+    for steps in (200, 200.5, 290, 999, 3001.5, 4000):
+        seen = observe(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.duration / steps, 4000)
+        assert seen.steps == np.ceil(steps)
+        assert len(seen.motion.t) == SAMPLES + 1
+        assert judged(SCENE, seen).covered == 1
+    cut = observe(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.duration / 5000, 4000)
+    assert judged(SCENE, cut).covered == pytest.approx(0.8)
+    assert judged(SCENE, Observed(1.0, 200, None, "why")).covered is None
+
+
+@pytest.mark.parametrize("scheme", ["Euler", "implicit"])
+def test_of_what_is_cut_short_what_may_end_otherwise_is_told(scheme):
+    # At its end it is off by twelve parts in a hundred, after an eighth of the way by two in a thousand.
+    scene = extreme_tops.spin(10.0)
+    chosen = next(s for s in MuJoCo.schemes if s.name == scheme)
+    short, whole = (judged(scene, observe(scene, MuJoCo, chosen, 1e-4, most)) for most in (4000, LONGEST))
+    assert (short.outcome, short.so_far, short.doubtful) == (Outcome.ACCURATE, True, True)
+    assert (whole.outcome, whole.so_far, whole.doubtful) == (Outcome.BOUNDED, False, False)
+    rk4 = next(s for s in MuJoCo.schemes if s.name == "RK4")
+    exact = judged(scene, observe(scene, MuJoCo, rk4, 1e-4, 4000))
+    assert (exact.outcome, exact.so_far, exact.doubtful) == (Outcome.ACCURATE, True, False)
 
 
 def test_nothing_seen_is_refused():

@@ -104,6 +104,7 @@ def test_page_says_what_failed_and_what_lies_past_the_limit(page):
         assert outcome.value in page
         assert outcome.sentence[:20] in page
     assert "autoreset on" in page
+    assert "Runs are cut short after 4000 steps" in page
 
 
 def test_signs_are_told_apart_by_glyph_and_by_colour():
@@ -126,6 +127,19 @@ def test_map_shows_every_point_where_it_belongs():
     ys = [float(rect.get("y")) for rect in root.iter("rect")]
     assert float(first.find("rect").get("y")) == max(ys)
     assert float(first.find("rect").get("x")) == stability_map.LEFT
+
+
+def test_what_was_cut_short_is_marked_and_says_how_much_of_its_scene_it_saw():
+    found = made(GOOD)
+    for point in found["maps"][0]["points"]:
+        point["covered"] = 1.2e-4 if point["dt"] < 1e-4 else 1.0
+    for cell in picture(found).findall("g"):
+        title = cell.find("title").text
+        cut = float(re.search(r"dt (\S+) s", title)[1]) < 1e-4
+        assert ("after 0.00012 of its scene" in title) == cut
+        # What grows or breaks off has done so, whatever the rest would have been.
+        may_change = any(f": {each.value}," in title for each in (Outcome.ACCURATE, Outcome.BOUNDED))
+        assert (cell.find("path") is not None) == (cut and may_change)
 
 
 def test_theory_runs_between_the_steps_that_hold_and_those_that_do_not():
