@@ -49,10 +49,10 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
     What all views share is thus said once. ``None`` where there are no rows, or but one step and no time.
     """
     table = list(rows)
-    timed = any(row["seconds_median"] is not None for row in table)
+    timed = any(row["seconds_min"] is not None for row in table)
     if not timed and len({row["dt"] for row in table}) < 2:
         return None
-    axes = (["seconds_median"] if timed else []) + ["dt"]
+    axes = (["seconds_min"] if timed else []) + ["dt"]
     lines = _lines(table, columns)
     observables: dict[tuple[str, str], list[Record]] = {}
     for row in table:
@@ -65,7 +65,7 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
     }
 
 
-_AXES = {"seconds_median": ("run time", "run time, median [s]"), "dt": ("step", "step dt [s]")}
+_AXES = {"seconds_min": ("run time", "run time, least [s]"), "dt": ("step", "step dt [s]")}
 #: What makes a configuration: the errors of several observables belong to one where these are equal.
 _CONFIGURATION = ("dt", "steps", "seconds_min", "seconds_median", "repeats", "us_per_call")
 
@@ -144,10 +144,10 @@ def _digits(value: float) -> float:
 
 
 def _time(row: Record) -> str:
-    if row["seconds_median"] is None:
+    if row["seconds_min"] is None:
         return "not timed"
-    spread = f"least {number(row['seconds_min'])} s" if row["seconds_min"] is not None else "least not kept"
-    lines = [f"median {number(row['seconds_median'])} s, {spread}, {count(row['repeats'], 'repeat')}"]
+    least, median = number(row["seconds_min"]), number(row["seconds_median"])
+    lines = [f"least {least} s, median {median} s, {count(row['repeats'], 'repeat')}"]
     lines += _pace(row["seconds_min"], row["steps"], row["dt"])
     if row.get("us_per_call") is not None:
         lines.append(f"{row['us_per_call']:.2f} µs of Python in a call")

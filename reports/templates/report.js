@@ -39,10 +39,30 @@
   }
 
   function show(plot, data, layout) {
-    const name = (plot.element.closest("article")?.id ?? "poinsot") + (plot.cost ? "-error" : "-motion");
-    const config = { displaylogo: false, toImageButtonOptions: { format: "svg", filename: name.replace(/[^\w.-]+/g, "-") }, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
+    const config = { displaylogo: false, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false, modeBarButtonsToRemove: ["toImage", "select2d", "lasso2d", "autoScale2d"] };
     Plotly.react(plot.canvas, data, layout, config);
     plot.drawn = true;
+  }
+
+  // The figure by itself, for a paper: dark on white whatever the screen shows, with its title and key inside.
+  function figure(plot) {
+    const article = plot.element.closest("article");
+    const text = [article?.querySelector("h2, h3"), plot.element.querySelector("figcaption b")].map((part) => part?.textContent).filter(Boolean).join(": ");
+    printing = true;
+    draw(plot);
+    const { data, layout } = plot.canvas, rows = Math.ceil(data.filter((line) => line.visible !== false).length / 3);
+    const made = { data, layout: { ...layout, height: layout.height + 60 + 20 * rows, margin: { ...layout.margin, t: 40, b: layout.margin.b + 20 + 20 * rows },
+      title: { text, font: { size: 14 } }, showlegend: true, legend: { orientation: "h", yref: "container", y: 0, yanchor: "bottom" },
+      paper_bgcolor: LIGHT.paper, plot_bgcolor: LIGHT.paper } };
+    printing = false;
+    draw(plot);
+    return made;
+  }
+
+  function save(plot) {
+    const made = figure(plot), name = (plot.element.closest("article")?.id ?? "poinsot") + (plot.cost ? "-error" : "-motion");
+    const { width, height } = made.layout;
+    Plotly.downloadImage(made, { format: "svg", filename: name.replace(/[^\w.-]+/g, "-"), width, height });
   }
 
   // The key below a figure: a button for each curve, which shows or hides it.
@@ -66,7 +86,7 @@
     });
     const every = entries.map((entry) => entry.name);
     plot.element.querySelector(".keys").append(...plot.keys.map(({ key }) => key),
-      button("show all", () => choose([])), button("hide all", () => choose(every)));
+      button("show all", () => choose([])), button("hide all", () => choose(every)), button("save as SVG", () => save(plot)));
   }
 
   function refreshKey(plot) {
@@ -210,7 +230,7 @@
 
   function solidLayout(plot, data, fraction, project) {
     const { x, y, notes } = boxLines(plot.spec, fraction, project);
-    data.unshift({ type: "scatter", mode: "lines", x, y, hoverinfo: "skip", line: { color: theme().grid, width: 1 } });
+    data.unshift({ type: "scatter", mode: "lines", x, y, hoverinfo: "skip", showlegend: false, line: { color: theme().grid, width: 1 } });
     const reach = (values) => 1.25 * Math.max(...values.map(Math.abs), 0.3);
     const view = (values) => ({ visible: false, range: [-reach(values), reach(values)] });
     return { ...frame(plot, 380), annotations: notes, margin: { l: 8, r: 8, t: 8, b: 8 },
