@@ -8,6 +8,9 @@ from typing import Any
 #: Errors, in an observable's unit, for which the cheapest configuration is told.
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)
 
+#: What makes a configuration: the first three a scheme, the last its step [s].
+_CONFIGURATION = ("engine", "engine_version", "scheme", "dt")
+
 Row = Mapping[str, Any]
 
 
@@ -28,7 +31,8 @@ def cheapest(rows: Iterable[Row], targets: Sequence[float] = TARGETS) -> list[di
 
     ``engine`` and what follows are ``None`` where no configuration reaches the target. ``next_engine``
     and ``ratio`` tell the cheapest of the other engines and how many times as long it takes; ``None``
-    where no other reaches it. Times are the least of each row's repeats.
+    where no other reaches it. ``coarsest`` tells that no coarser step of its scheme was tried, which may be
+    cheaper still. Times are the least of each row's repeats.
     """
     groups: dict[tuple[str, str, str], list[Row]] = defaultdict(list)
     for row in rows:
@@ -41,22 +45,26 @@ def cheapest(rows: Iterable[Row], targets: Sequence[float] = TARGETS) -> list[di
     ]
 
 
-def _best(rows: Iterable[Row], target: float) -> dict[str, Any]:
+def _best(rows: Sequence[Row], target: float) -> dict[str, Any]:
     able = sorted(
         (row for row in _comparable(rows) if row["error"] <= target),
         key=lambda row: float(row["seconds_min"]),
     )
     if not able:
-        return dict.fromkeys(
-            ("engine", "engine_version", "scheme", "dt", "error", "seconds", "next_engine", "ratio")
-        )
+        return dict.fromkeys((*_CONFIGURATION, "error", "seconds", "next_engine", "ratio", "coarsest"))
     best = able[0]
     other = next((row for row in able if row["engine"] != best["engine"]), None)
     return {
-        **{name: best[name] for name in ("engine", "engine_version", "scheme", "dt", "error")},
+        **{name: best[name] for name in (*_CONFIGURATION, "error")},
         "seconds": best["seconds_min"],
         "next_engine": other and other["engine"],
         "ratio": other and other["seconds_min"] / best["seconds_min"],
+        # What broke down at a coarser step has a row as well, without an error.
+        "coarsest": not any(
+            row["dt"] > best["dt"]
+            for row in rows
+            if all(row[name] == best[name] for name in _CONFIGURATION[:3])
+        ),
     }
 
 

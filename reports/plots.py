@@ -168,14 +168,16 @@ def _not_drawn(rows: list[Record], x: str) -> str:
     for row in rows:
         if _on_log_axis(row[x]) and _on_log_axis(row["error"]):
             continue
-        reason = "not timed" if not _on_log_axis(row[x]) else _odd(row["error"])
+        reason = _odd(row) if row.get("message") or _on_log_axis(row[x]) else "not timed"
         words.setdefault(reason, {})[f"{row['engine']} {row['scheme']} (dt {number(row['dt'])} s)"] = None
     said = "; ".join(f"{reason}: {', '.join(who)}" for reason, who in words.items())
     return f"Not drawn: {said}." if said else ""
 
 
-def _odd(error: float | None) -> str:
-    return "error exactly 0" if error == 0 else "error not finite"
+def _odd(row: Record) -> str:
+    if row.get("message"):
+        return "no motion"
+    return "error exactly 0" if row["error"] == 0 else "error not finite"
 
 
 def motion_figures(motion: Motion, columns: Iterable[Column]) -> list[Figure]:

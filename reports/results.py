@@ -32,6 +32,10 @@ GRAVITY = (
 
 #: What a row of ``work_precision`` says of time.
 TIMES = ("seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread", "us_per_call")
+#: The same where no time was taken.
+UNTIMED: Mapping[str, Any] = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0}
+#: What a row of ``work_precision`` says of a motion.
+FOUND = ("error", "error_final", "round_off", "error_rms", "fitted", "uncertainty", "exact")
 
 Key = tuple[str, str, str, float]
 
@@ -104,15 +108,37 @@ def cells(records: Iterable[CellRecord]) -> list[dict[str, Any]]:
 
 def precision_rows(cells: Iterable[Cell], seconds: Mapping[Key, Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Error against run time: one row a cell and observable; times are null where none was taken."""
-    untimed = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0}
     rows = []
     for cell in cells:
         p = cell.provenance
-        time = seconds.get((p.scene, p.engine, p.scheme, p.dt), untimed)
+        time = seconds.get((p.scene, p.engine, p.scheme, p.dt), UNTIMED)
         for observable in cell.scene.observables:
             if observable.kind != "invariant":
                 rows.append(with_time(_row(cell, observable), time))  # noqa: PERF401 (two loops read better than one)
     return rows
+
+
+def broken_rows(
+    scene: Scene, engine: str, version: str, scheme: str, dt: float, message: str
+) -> list[dict[str, Any]]:
+    """Rows of a cell that came to no motion, as ``precision_rows`` has them; ``message`` tells why."""
+    cell = {"scene": scene.full_name, "engine": engine, "engine_version": version, "scheme": scheme, "dt": dt}
+    cell |= {"steps": scene.samples * scene.steps_per_sample(dt), "samples": scene.samples}
+    return [
+        with_time(
+            {
+                **cell,
+                "observable": observable.name,
+                "unit": observable.unit,
+                **dict.fromkeys(FOUND),
+                "judged": False,
+                "message": message,
+            },
+            UNTIMED,
+        )
+        for observable in scene.observables
+        if observable.kind != "invariant"
+    ]
 
 
 def with_time(row: Mapping[str, Any], time: Mapping[str, Any]) -> dict[str, Any]:
@@ -191,6 +217,7 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
         "scheme": p.scheme,
         "dt": p.dt,
         "steps": p.steps,
+        "samples": cell.scene.samples,
         "observable": observable.name,
         "unit": observable.unit,
         "error": _finite(float(distances.max())),
@@ -201,6 +228,7 @@ def _row(cell: Cell, observable: Observable) -> dict[str, Any]:
         "uncertainty": _finite(rate.uncertainty) if rate and rate.uncertainty is not None else None,
         "exact": _finite(rate.exact) if rate else None,
         "judged": True,
+        "message": "",
     }
 
 

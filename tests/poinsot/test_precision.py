@@ -21,11 +21,58 @@ EULER = Scheme("semi-implicit Euler", 1, "semi-implicit Euler", {})
 def test_a_wide_ladder_has_three_decades_of_whole_steps_around_the_scenes_own(name, order):
     scene = scenes()[name]
     ladder = precision.wide_ladder(scene, replace(EULER, order=order, twin=""))
-    assert len(ladder) >= 8
     assert ladder[0] / ladder[-1] >= 999
     assert ladder[0] >= max(scene.ladder(order)) * (1 - 1e-9)
-    assert all(math.isclose(scene.whole_step(dt), dt, rel_tol=1e-12) for dt in ladder)
-    assert np.allclose(np.array(ladder[:-1]) / ladder[1:], 2)
+    assert all(math.isclose(precision.looked(scene, dt).whole_step(dt), dt, rel_tol=1e-12) for dt in ladder)
+    within, ratios = ladder[-precision.RUNGS :], np.array(ladder[:-1]) / ladder[1:]
+    assert np.allclose(np.array(within[:-1]) / within[1:], 2)
+    assert all(2 - 1e-9 <= ratio <= precision.SELDOM for ratio in ratios)
+    assert all(dt <= precision.SELDOM * scene.duration / scene.samples * (1 + 1e-9) for dt in ladder)
+
+
+@pytest.mark.parametrize(
+    ("name", "order", "every"),
+    [
+        ("heavy_top[moderate]", 4, [8, 4, 2, 1]),
+        ("co2_chain[mixture]", 4, [5, 1]),
+        ("middle_axis[1e-2]", 4, [3, 1]),
+        ("normal_modes[64_wall]", 4, [1]),  # five looks are few enough
+        ("rolling[hoop]", 4, [1]),  # bodies touch
+        ("compound_pendulum[struck]", 4, [1]),
+        ("double_pendulum[large]", 4, []),  # four times its own ladder ends between two looks
+    ],
+)
+def test_steps_longer_than_from_look_to_look_end_at_every_so_manieth(name, order, every):
+    scene = scenes()[name]
+    ladder = precision.wide_ladder(scene, replace(EULER, order=order, twin=""))
+    sample = scene.duration / scene.samples
+    assert [dt / sample for dt in ladder if dt > 0.99 * sample] == pytest.approx(every)
+
+
+def test_a_scene_that_is_looked_at_less_often_shows_states_alone_at_its_own_times():
+    scene = scenes()["heavy_top[moderate]"]
+    assert precision.looked(scene, 0.01) is scene
+    seldom = precision.looked(scene, 0.04)
+    assert precision.looked(scene, 0.04) is seldom
+    assert (seldom.samples, precision.steps(scene, 0.04)) == (50, 50)
+    assert {observable.kind for observable in seldom.observables} == {"state"}
+    assert np.allclose(seldom.sample_times(), scene.sample_times()[::4])
+
+
+def test_a_scheme_of_fourth_order_is_tried_at_steps_so_long_that_it_misses():
+    engine = pytest.importorskip("poinsot.adapters.pinocchio_").Pinocchio
+    scene, scheme = scenes()["heavy_top[moderate]"], engine.schemes[-1]
+    assert scheme.order == 4
+    found = {
+        dt: {row["observable"]: row for row in precision.rows(scene, engine, scheme, dt)}
+        for dt in precision.wide_ladder(scene, scheme)[:4]
+    }
+    errors = {dt: mine["orientation"]["error"] for dt, mine in found.items()}
+    assert max(dt for dt, error in errors.items() if error <= 1e-2) == pytest.approx(0.04)
+    assert max(dt for dt, error in errors.items() if error <= 1e-4) == pytest.approx(0.02)
+    counts = [(mine["orientation"]["samples"], mine["orientation"]["steps"]) for mine in found.values()]
+    assert counts == [(25, 25), (50, 50), (100, 100), (200, 200)]
+    assert [len(mine) for mine in found.values()] == [2, 2, 2, 4]
 
 
 def test_a_step_at_which_a_run_takes_too_long_is_left_out_with_all_finer_ones():
@@ -48,9 +95,25 @@ def test_rows_beyond_the_ladder_fall_in_line_with_it_and_are_marked_as_not_judge
     assert all(row["seconds_min"] == pytest.approx(row["steps"] * 5e-4) for row in found)
     assert all(row["steps_per_second"] == pytest.approx(2e3) for row in found)
     assert all(row["error_per_us"] == pytest.approx(row["error"] / row["steps"] / 500) for row in found)
-    assert any("fewer than 11 steps" in note and SCENE.full_name in note for note in notes)
+    assert {row["samples"] for row in found if row["dt"] > 0.02 * (1 + 1e-9)} == {25}
+    assert any("a finer one would take over" in note and SCENE.full_name in note for note in notes)
     first = [row for row in found if row["observable"] == SCENE.observables[0].name]
     coarser, finer = first[-2:]  # the coarsest steps of all lie above the range where the order shows
     assert math.log(coarser["error"] / finer["error"], coarser["dt"] / finer["dt"]) == pytest.approx(
         1, abs=0.2
     )
+
+
+def test_a_step_at_which_an_engine_breaks_down_has_rows_that_say_so_and_is_noted():
+    pytest.importorskip("pybullet")
+    scene = scenes()["heavy_top[moderate]"]
+    laid = plan([scene], ["pybullet"], [], [1e-2], Extent.FULL)
+    (key,) = laid.requests
+    found, notes = precision.beyond(laid, {key: Timing(200, 200, (0.25,) * 10)}, 1, 60.0, lambda *told: None)
+    errors = {row["dt"]: row["error"] for row in found if row["observable"] == "orientation"}
+    assert list(errors) == pytest.approx([0.08, 0.04, 0.02, 0.005, 0.0025])
+    assert [error is None for error in errors.values()] == [True, True, False, False, False]
+    assert all(("π/4" in row["message"]) == (row["error"] is None) for row in found)
+    assert len({tuple(row) for row in found}) == 1, "rows have the same names, whatever came of them"
+    (told,) = [note for note in notes if "no error" in note]
+    assert "heavy_top[moderate] 0.08 s, heavy_top[moderate] 0.04 s" in told

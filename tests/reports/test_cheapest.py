@@ -28,6 +28,13 @@ def test_the_cheapest_for_each_target_and_how_much_longer_another_engine_takes()
     assert found[1e-6]["engine"] is None
 
 
+def test_where_no_coarser_step_of_its_scheme_was_tried_it_is_said():
+    coarser = row("alpha", 0.5, None, dt=2e-3)
+    assert [line["coarsest"] for line in cheapest([FAST, FINE], (1e-2, 1e-9))] == [True, None]
+    assert not cheapest([FAST, coarser], (1e-2,))[0]["coarsest"], "it was tried, and broke down"
+    assert cheapest([FAST, {**coarser, "scheme": "another"}], (1e-2,))[0]["coarsest"]
+
+
 def test_an_error_just_at_the_target_reaches_it_and_no_other_engine_is_said_to():
     (found,) = cheapest([FAST, FINE], (5e-3,))
     assert (found["engine"], found["seconds"], found["next_engine"], found["ratio"]) == (

@@ -213,6 +213,17 @@ def test_a_large_run_stays_one_file_of_reasonable_size(remade, moved, tmp_path, 
     assert (len(text) - library) / (35 * 12) < 14e3
 
 
+def test_a_cheapest_configuration_that_may_not_be_one_says_so(remade, tmp_path):
+    results = remade()
+    for row in results["work_precision"]:
+        row["error"] = 1e-3 if row["dt"] < 1e-3 else 1.0
+    words = Page(rendered(results, tmp_path)).words()
+    assert "What an error of orientation costs at the least" in words
+    assert "coarsest step tried" not in words
+    results["work_precision"] = [row for row in results["work_precision"] if row["error"] < 1]
+    assert "at the coarsest step tried: a coarser one may do" in Page(rendered(results, tmp_path)).words()
+
+
 def test_what_was_fitted_stands_beside_its_closed_form(remade, tmp_path):
     results = remade()
     rows = [row for row in results["work_precision"] if row["scene"] == "heavy_top[fast]"]

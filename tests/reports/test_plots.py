@@ -114,6 +114,16 @@ def test_what_has_no_place_on_logarithmic_axes_is_named(results):
     json.dumps(figure(changed), allow_nan=False)
 
 
+def test_a_step_that_came_to_no_motion_is_named_as_that_whether_timed_or_not(results):
+    changed = copy.deepcopy(results)
+    rows = [r for r in changed["work_precision"] if (r["scene"], r["observable"]) == (SCENE, "orientation")]
+    for row, seconds in zip(rows, (None, 1.0), strict=False):
+        row |= {"error": None, "message": "its process died", "seconds_median": seconds}
+    said = "no motion: mujoco Euler (dt 2.00e-03 s), mujoco Euler (dt 1.00e-03 s)"
+    assert said in view(changed)["note"]
+    assert said in view(changed, against="step")["note"]
+
+
 def test_each_error_stands_at_its_own_time_where_observables_were_timed_apart(results):
     changed = copy.deepcopy(results)
     rows = [r for r in changed["work_precision"] if (r["scene"], r["observable"]) == (SCENE, "orientation")]
