@@ -1,14 +1,15 @@
 """The public functions: what users' scripts call."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from .adapters import registry
-from .adapters.engine import Engine
+from .adapters.engine import Engine, Scheme
 from .adapters.simulate import simulate as _simulate
 from .adapters.simulate import unsupported
 from .adapters.timing import timed
-from .precision import affordable, rows
+from .precision import affordable, broken, looked, rows
+from .reference.errors import PoinsotError
 from .reports import judge as _judge
 from .reports.results import with_time
 from .reports.verdict import Verdict
@@ -58,25 +59,52 @@ def judge(
 
 
 def work_precision(
-    scene: Scene | str, engines: Sequence[type[Engine] | str] | None = None
+    scene: Scene | str, engines: Sequence[type[Engine] | str] | type[Engine] | str | None = None
 ) -> list[dict[str, Any]]:
     """Error against run time of one scene: rows as in ``results.json``, over three decades of steps.
 
-    ``engines`` are all that are installed unless given; a scheme that cannot run the scene has no
-    rows, nor has a step at which one run takes over a second. Takes up to two seconds a scheme and step,
-    one after the other, on one core. Raises ``EngineError`` where an engine breaks down at a step.
+    ``engines`` are one or several, all that are installed unless given; a scheme that cannot run the scene
+    has no rows, nor has a step at which one run takes over a second. Where an engine breaks down at a step,
+    rows have no ``error`` (``None``) and no times, and a ``message`` that tells what it said: at the scene's
+    own step, by which the others are timed, that is all there is of its scheme. Nothing is judged.
+    Takes up to two seconds a scheme and step, one after the other, on one core.
+
+    Raises ``InputError`` for a name that cannot be, ``UnavailableError`` for an engine that is not installed.
     """
     scene = _scene(scene)
-    installed = [engine for engine in registry.engines().values() if not isinstance(engine, str)]
-    found = []
-    for engine in installed if engines is None else [_engine(engine) for engine in engines]:
-        for scheme in engine.schemes:
-            if not unsupported(scene, engine, scheme):
-                each = timed(scene, engine, scheme, scene.dt)
-                for dt in affordable(scene, scheme, each.least / each.steps):
-                    timing = timed(scene, engine, scheme, dt)
-                    found += [with_time(row, timing.as_row()) for row in rows(scene, engine, scheme, dt)]
-    return found
+    if engines is None:
+        chosen = [engine for engine in registry.engines().values() if not isinstance(engine, str)]
+    else:
+        several = [engines] if isinstance(engines, (str, type)) else engines
+        chosen = [_engine(engine) for engine in several]
+    return [
+        row
+        for engine in chosen
+        for scheme in engine.schemes
+        if not unsupported(scene, engine, scheme)
+        for row in _over_steps(scene, engine, scheme)
+    ]
+
+
+def _over_steps(scene: Scene, engine: type[Engine], scheme: Scheme) -> Iterator[dict[str, Any]]:
+    """Rows of one scheme at each step of its wide ladder."""
+    dt = scene.whole_step(scene.dt)
+    try:
+        each = timed(scene, engine, scheme, dt)
+    except Exception as error:  # as below
+        yield from broken(scene, engine, scheme, dt, _said(error))
+        return
+    for dt in affordable(scene, scheme, each.least / each.steps):
+        try:
+            timing = timed(looked(scene, dt), engine, scheme, dt).as_row()
+            found = [with_time(row, timing) for row in rows(scene, engine, scheme, dt)]
+        except Exception as error:  # an engine may raise anything; one step must not take the others with it
+            found = broken(scene, engine, scheme, dt, _said(error))
+        yield from found
+
+
+def _said(error: Exception) -> str:
+    return str(error) if isinstance(error, PoinsotError) else f"{type(error).__name__}: {error}"
 
 
 def _scene(scene: Scene | str) -> Scene:

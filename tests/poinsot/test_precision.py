@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from poinsot.adapters.engine import Scheme
+from poinsot.adapters import timing
+from poinsot.adapters.engine import EngineError, Scheme, Setup, State
 from poinsot.adapters.timing import Timing
 from poinsot.scenarios.registry import scenes
 
+import poinsot
 from poinsot import precision
 from poinsot.plan import Extent, plan
 
@@ -117,3 +119,63 @@ def test_a_step_at_which_an_engine_breaks_down_has_rows_that_say_so_and_is_noted
     assert len({tuple(row) for row in found}) == 1, "rows have the same names, whatever came of them"
     (told,) = [note for note in notes if "no error" in note]
     assert "heavy_top[moderate] 0.08 s, heavy_top[moderate] 0.04 s" in told
+
+
+@pytest.fixture
+def unpinned(monkeypatch):
+    monkeypatch.setattr(timing, "pin", lambda: True)
+
+
+class Breaking:
+    """Stays where it is, and breaks down at steps longer than 2 ms."""
+
+    name, features, settings = "breaking", frozenset({"free"}), {}
+    schemes = (Scheme("none", 1, "none", {}),)
+    version = staticmethod(lambda: "1")
+    model_text = staticmethod(lambda: ("nothing", ""))
+    readback = staticmethod(lambda: Setup({}))
+    close = staticmethod(lambda: None)
+
+    def build(self, scene, scheme, dt):
+        self.dt, self.start = dt, scene.truth(scene, np.zeros(1))
+
+    def step(self, n):
+        if self.dt > 2e-3:
+            raise self.error(f"no way at {self.dt:.3g} s")
+
+    def state(self):
+        at = self.start
+        parts = (at.position, at.quaternion, at.velocity, at.omega)
+        return State(*(part[0] for part in parts), at.joint_position[0], at.joint_velocity[0])
+
+    error = EngineError
+
+
+class Odd(Breaking):
+    error = ValueError
+
+
+@pytest.mark.usefixtures("unpinned")
+@pytest.mark.parametrize(("engine", "said"), [(Breaking, "no way at"), (Odd, "ValueError: no way at")])
+def test_rows_of_a_step_at_which_an_engine_breaks_down_say_what_it_said(monkeypatch, engine, said):
+    monkeypatch.setattr(precision, "RUNGS", 6)
+    found = poinsot.work_precision("free_symmetric_top[oblate]", engine)
+    assert not any(row["judged"] for row in found)
+    for row in found:
+        assert (row["error"] is None) == (row["seconds_min"] is None) == (row["dt"] > 2e-3)
+        assert row["message"].startswith(said) == (row["dt"] > 2e-3) == bool(row["message"])
+    assert len({row["dt"] for row in found if row["error"] is None}) > 2
+    assert len({row["dt"] for row in found if row["error"] is not None}) > 1
+
+
+@pytest.mark.usefixtures("unpinned")
+def test_an_engine_that_breaks_down_at_the_scenes_own_step_has_rows_of_that_alone():
+    scene = replace(scenes()["free_symmetric_top[oblate]"], dt=4e-3)
+    found = poinsot.work_precision(scene, [Breaking])
+    assert {(row["dt"], row["message"]) for row in found} == {(4e-3, "no way at 0.004 s")}
+    assert {row["observable"] for row in found} == {"orientation", "omega", "position", "Omega_b"}
+
+
+def test_one_engine_may_be_named_by_itself():
+    with pytest.raises(poinsot.InputError, match="nowhere"):
+        poinsot.work_precision("free_symmetric_top[oblate]", "nowhere")
