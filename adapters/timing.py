@@ -31,6 +31,7 @@ class Timing:
     ``beat`` [s] is what a fixed piece of Python's own work took beside it: where it differs from one
     cell to another, so did the machine. ``pinned`` tells whether the process could be kept on one core.
     ``call`` [s] is what asking for no step at all takes: Python's share of a call, which a batch pays once.
+    ``scaled`` tells that it was taken at another step of the same scheme.
     """
 
     steps: int
@@ -39,6 +40,7 @@ class Timing:
     beat: float = 0.0
     pinned: bool = True
     call: float | None = None
+    scaled: bool = False
 
     @property
     def least(self) -> float:
@@ -57,7 +59,8 @@ class Timing:
 
     def of(self, steps: int) -> "Timing":
         """The time of so many steps, taken on these."""
-        return replace(self, steps=steps, seconds=tuple(s * (steps / self.steps) for s in self.seconds))
+        seconds = tuple(s * (steps / self.steps) for s in self.seconds)
+        return replace(self, steps=steps, seconds=seconds, scaled=True)
 
     def as_row(self) -> dict[str, float | int | None]:
         """The part of a work-precision row that speaks of time."""
@@ -69,6 +72,7 @@ class Timing:
             "us_per_step": self.least / self.steps * 1e6,
             "spread": self.spread,
             "us_per_call": None if self.call is None else self.call * 1e6,
+            "scaled": self.scaled,
         }
 
 

@@ -22,9 +22,12 @@ from .reference.errors import InputError
 from .reports import deviations, results
 from .reports.results import CellRecord, Key
 from .reports.verdict import Status
+from .reports.wording import listed
 from .scenarios.registry import scenes as all_scenes
 
 LOGS = "logs"
+#: How many cells a note names.
+NAMED = 10
 
 
 class Progress(Protocol):
@@ -81,7 +84,7 @@ def run(
         with cost.phase("timing"):
             timings = _timed(laid, records, time_limit, progress, cost)
     seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
-    noted = [*laid.notes, *_quality([t for t in timings.values() if isinstance(t, Timing)])]
+    noted = [*laid.notes, *_quality({k: t for k, t in timings.items() if isinstance(t, Timing)})]
     untimed = [
         f"{scene} in {engine} {scheme} at dt {dt:g} s: not timed, {reason}"
         for (scene, engine, scheme, dt), reason in timings.items()
@@ -225,27 +228,35 @@ def _timed(
     return scaled | timings
 
 
-def _quality(timings: Sequence[Timing]) -> list[str]:
-    """How far the timings can be trusted, in sentences; scaled from one timing, they are one."""
-    timings = list({timing.beat: timing for timing in timings}.values())
-    if not timings:
+def _quality(timings: Mapping[Key, Timing]) -> list[str]:
+    """How far the timings can be trusted, in sentences: those that were taken, not those scaled from them."""
+    taken = {key: timing for key, timing in timings.items() if not timing.scaled}
+    if not taken:
         return []
-    loose = sum(timing.spread > SPREAD for timing in timings)
-    beats = [timing.beat for timing in timings]
+    loose = [key for key, timing in taken.items() if timing.spread > SPREAD]
+    beats = [timing.beat for timing in taken.values()]
     said = [
         f"Timing: beside the cells, a fixed piece of work took {min(beats) * 1e3:.3g} to "
         f"{max(beats) * 1e3:.3g} ms, so fast was the machine; "
         + (
-            f"of {len(timings)} cells, {loose} spread by more than {SPREAD:.0%}, repeated or not."
+            f"of {len(taken)} cells, {len(loose)} spread by more than {SPREAD:.0%}, repeated or not: "
+            f"{_named(loose)}."
             if loose
             else f"no cell's middle repeat took over {SPREAD:.0%} longer than its fastest."
         )
     ]
-    if not all(timing.pinned for timing in timings):
+    if not all(timing.pinned for timing in taken.values()):
         said.append("Loose timing: this system keeps no process on one core, so that times spread more.")
     if runner.cores() == 1:
         said.append("Loose timing: there is one core, which whatever else runs here shares.")
     return said
+
+
+def _named(keys: Sequence[Key]) -> str:
+    """Cells, some of them by name."""
+    return listed(
+        (f"{scene} in {engine} {scheme} at dt {dt:.3g} s" for scene, engine, scheme, dt in keys), NAMED
+    )
 
 
 def _record_of(path: Path) -> CellRecord:

@@ -139,8 +139,8 @@ def _wanted(
     """Each cell to run, with its time; and a sentence on the ladders of each scheme that are cut short."""
     times, short = dict[runner.Request, dict[str, Any]](), defaultdict[str, list[str]](list)
     ladders: dict[tuple[str, str, str], tuple[runner.Request, Timing]] = {}
-    for key, timing in timings.items():
-        ladders.setdefault(key[:3], (laid.requests[key], timing))
+    for key, timing in sorted(timings.items(), key=lambda item: item[1].spread, reverse=True):
+        ladders[key[:3]] = laid.requests[key], timing  # in the end the steadiest of each ladder
     for ladder, (request, timing) in ladders.items():
         scene, scheme = scenes()[ladder[0]], registry.scheme_of(registry.load(request.engine), request.scheme)
         taken = affordable(scene, scheme, timing.least / timing.steps)

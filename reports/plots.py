@@ -67,7 +67,9 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
 
 _AXES = {"seconds_min": ("run time", "run time, least [s]"), "dt": ("step", "step dt [s]")}
 #: What makes a configuration: the errors of several observables belong to one where these are equal.
-_CONFIGURATION = ("dt", "steps", "seconds_min", "seconds_median", "repeats", "us_per_call")
+_CONFIGURATION = (
+    "dt", "steps", "seconds_min", "seconds_median", "repeats", "us_per_call", "scaled", "timed_steps"
+)  # fmt: skip
 
 Lines = dict[Column, list[tuple[Any, ...]]]
 
@@ -148,6 +150,8 @@ def _time(row: Record) -> str:
         return "not timed"
     least, median = number(row["seconds_min"]), number(row["seconds_median"])
     lines = [f"least {least} s, median {median} s, {count(row['repeats'], 'repeat')}"]
+    if row.get("scaled"):
+        lines.append(f"scaled from {count(row['timed_steps'], 'step')} of another dt")
     lines += _pace(row["seconds_min"], row["steps"], row["dt"])
     if row.get("us_per_call") is not None:
         lines.append(f"{row['us_per_call']:.2f} µs of Python in a call")

@@ -31,9 +31,12 @@ GRAVITY = (
 )
 
 #: What a row of ``work_precision`` says of time.
-TIMES = ("seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread", "us_per_call")
+TIMES = (
+    "seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread", "us_per_call",
+    "scaled",
+)  # fmt: skip
 #: The same where no time was taken.
-UNTIMED: Mapping[str, Any] = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0}
+UNTIMED: Mapping[str, Any] = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0, "scaled": False}
 #: What a row of ``work_precision`` says of a motion.
 FOUND = ("error", "error_final", "round_off", "error_rms", "fitted", "uncertainty", "exact")
 

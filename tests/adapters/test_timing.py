@@ -96,8 +96,10 @@ def test_a_cell_that_spreads_is_timed_again_and_the_steadier_kept(monkeypatch):
 
 def test_the_time_of_other_steps_is_scaled():
     found = timing.Timing(10, 5, (2.0, 4.0), 1e-3).of(30)
-    assert found == timing.Timing(30, 5, (6.0, 12.0), 1e-3)
+    assert found == timing.Timing(30, 5, (6.0, 12.0), 1e-3, scaled=True)
     assert found.as_row()["us_per_step"] == pytest.approx(2e5)
+    assert found.as_row()["scaled"]
+    assert not timing.Timing(10, 5, (2.0, 4.0)).as_row()["scaled"]
 
 
 class SlowToCall(Sleeper):

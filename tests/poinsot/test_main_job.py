@@ -9,6 +9,7 @@ from poinsot.adapters.timing import Timing
 from poinsot import listing, main_job
 
 STEADY = Timing(100, 100, (1.0, 1.1, 1.2), beat=1e-3)
+LOOSE = replace(STEADY, seconds=(1.0, 2.0, 2.0), beat=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -16,20 +17,27 @@ STEADY = Timing(100, 100, (1.0, 1.1, 1.2), beat=1e-3)
     [
         ([], 2, []),
         ([STEADY], 2, ["no cell's middle repeat took over 20% longer"]),
-        ([STEADY, replace(STEADY, seconds=(1.0, 2.0, 2.0), beat=2e-3)], 2, ["of 2 cells, 1 spread by more"]),
+        (
+            [STEADY, LOOSE],
+            2,
+            ["of 2 cells, 1 spread by more than 20%, repeated or not: top in alpha own at dt 1"],
+        ),
+        ([STEADY, LOOSE.of(500)], 2, ["no cell's middle repeat took over 20% longer"]),
+        ([LOOSE] * 12, 2, ["at dt 9 s and 2 more."]),
         ([replace(STEADY, pinned=False)], 2, ["took over 20%", "keeps no process on one core"]),
         ([STEADY], 1, ["took over 20%", "there is one core"]),
     ],
 )
 def test_how_far_timings_can_be_trusted_is_said(monkeypatch, timings, cores, said):
     monkeypatch.setattr(runner, "cores", lambda: cores)
-    found = main_job._quality(timings)
+    found = main_job._quality({("top", "alpha", "own", dt): timing for dt, timing in enumerate(timings)})
     assert len(found) == len(said)
     assert all(words in sentence for words, sentence in zip(said, found, strict=True))
 
 
 def test_what_makes_timings_loose_is_told_at_the_end_of_a_run(monkeypatch, tmp_path):
     monkeypatch.setattr(runner, "cores", lambda: 1)
-    found = {"cells": [], "stale_deviations": [], "notes": main_job._quality([STEADY])}
+    notes = main_job._quality({("top", "alpha", "own", 1.0): STEADY})
+    found = {"cells": [], "stale_deviations": [], "notes": notes}
     _, loose, _ = listing.outcome(found, tmp_path).splitlines()
     assert "there is one core" in loose

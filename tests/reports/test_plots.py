@@ -114,6 +114,15 @@ def test_what_has_no_place_on_logarithmic_axes_is_named(results):
     json.dumps(figure(changed), allow_nan=False)
 
 
+def test_a_time_taken_at_another_step_is_told_as_that(results):
+    changed = copy.deepcopy(results)
+    rows = [r for r in changed["work_precision"] if (r["scene"], r["observable"]) == (SCENE, "orientation")]
+    rows[0] |= {"scaled": True, "timed_steps": 250}
+    told = {dt: time for dt, _, time in view(changed)["data"][0]["customdata"]}
+    assert [dt for dt, time in told.items() if "scaled" in time] == ["2.00e-03"]
+    assert "<br>scaled from 250 steps of another dt<br>" in told["2.00e-03"]
+
+
 def test_a_step_that_came_to_no_motion_is_named_as_that_whether_timed_or_not(results):
     changed = copy.deepcopy(results)
     rows = [r for r in changed["work_precision"] if (r["scene"], r["observable"]) == (SCENE, "orientation")]
