@@ -17,7 +17,7 @@ from .adapters.timing import SPREAD, Timing
 from .cost import Cost
 from .estimate import Estimate
 from .judging import judged
-from .plan import Extent, Plan, in_turn, to_time
+from .plan import Extent, Plan, in_turn, not_to_time, to_time
 from .reference.errors import InputError
 from .reports import deviations, results
 from .reports.results import CellRecord, Key
@@ -85,6 +85,7 @@ def run(
             timings = _timed(laid, records, time_limit, progress, cost)
     seconds = {key: timing.as_row() for key, timing in timings.items() if isinstance(timing, Timing)}
     noted = [*laid.notes, *_quality({k: t for k, t in timings.items() if isinstance(t, Timing)})]
+    noted += not_to_time(laid) if with_timing else []
     untimed = [
         f"{scene} in {engine} {scheme} at dt {dt:g} s: not timed, {reason}"
         for (scene, engine, scheme, dt), reason in timings.items()

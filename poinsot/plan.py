@@ -32,7 +32,10 @@ class Extent(Enum):
         "those of all variants"
     )
     WHOLE = "every variant over its ladders"
-    FULL = "everything, and the error over run time over three decades of steps"
+    FULL = (
+        "every variant over its ladders, and the error over run time over three decades of steps, in the "
+        "first variant of each scene"
+    )
 
 
 @dataclass
@@ -97,19 +100,37 @@ def in_turn(laid: Plan) -> list[Request]:
 
 
 def to_time(laid: Plan, records: Sequence[CellRecord]) -> list[CellRecord]:
-    """Which of ``records`` to time: those of one variant of each scene, as others only start elsewhere.
+    """Which of ``records`` to time: those of one variant of each scene, as most others only start elsewhere.
 
     Unless the run is a full one, one step of each scheme is timed, and the others take its time a step.
     """
-    first: dict[str, str] = {}
-    for record in laid.records:
-        first.setdefault(all_scenes()[record.scene].name, record.scene)
-    sound = [r for r in records if r.key in laid.requests and r.scene in first.values()]
+    first = _first_variants(laid)
+    sound = [r for r in records if r.key in laid.requests and r.scene in first]
     ladders = defaultdict[tuple[str, str, str], list[float]](list)
     for record in sound:
         ladders[record.key[:3]].append(record.dt)
     every = laid.extent in (Extent.WHOLE, Extent.FULL)
     return [r for r in sound if every or r.dt == _own_step(r.scene, ladders[r.key[:3]])]
+
+
+def not_to_time(laid: Plan) -> list[str]:
+    """A sentence on the variants that ``to_time`` leaves out, if there are any."""
+    every, first = {record.scene for record in laid.records}, _first_variants(laid)
+    if every == first:
+        return []
+    what = "Run times, and errors over them," if laid.extent is Extent.FULL else "Run times"
+    return [
+        f"{what} are those of the first variant of each scene: the others "
+        f"({len(every - first)} of {len(every)}), most of which only start elsewhere and take "
+        "as long a step, were not timed."
+    ]
+
+
+def _first_variants(laid: Plan) -> set[str]:
+    first: dict[str, str] = {}
+    for record in laid.records:
+        first.setdefault(all_scenes()[record.scene].name, record.scene)
+    return set(first.values())
 
 
 def _own_step(scene: str, steps: Sequence[float]) -> float:

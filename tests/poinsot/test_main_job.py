@@ -5,8 +5,10 @@ from dataclasses import replace
 import pytest
 from poinsot.adapters import runner
 from poinsot.adapters.timing import Timing
+from poinsot.scenarios.registry import select
 
 from poinsot import listing, main_job
+from poinsot.plan import Extent, not_to_time, plan
 
 STEADY = Timing(100, 100, (1.0, 1.1, 1.2), beat=1e-3)
 LOOSE = replace(STEADY, seconds=(1.0, 2.0, 2.0), beat=2e-3)
@@ -41,3 +43,12 @@ def test_what_makes_timings_loose_is_told_at_the_end_of_a_run(monkeypatch, tmp_p
     found = {"cells": [], "stale_deviations": [], "notes": notes}
     _, loose, _ = listing.outcome(found, tmp_path).splitlines()
     assert "there is one core" in loose
+
+
+def test_a_run_that_times_says_which_variants_it_does_not(tmp_path):
+    pytest.importorskip("pinocchio")
+    names = ["free_symmetric_top[oblate]", "free_symmetric_top[prolate]"]
+    laid = plan(select(names), ["pinocchio"], ["RKMK4"], [], Extent.QUICK)
+    found = main_job.run(laid, tmp_path, "poinsot run", 1, 60.0, True, lambda *told: None)
+    assert {row["scene"] for row in found["work_precision"] if row["seconds_min"]} == {names[0]}
+    assert [note for note in found["notes"] if "were not timed" in note] == not_to_time(laid)

@@ -7,7 +7,7 @@ from poinsot.reference.errors import InputError
 from poinsot.reports.verdict import Status
 from poinsot.scenarios.registry import scenes, select
 
-from poinsot.plan import Extent, plan
+from poinsot.plan import Extent, not_to_time, plan, to_time
 
 LADDER, ALONE = "free_symmetric_top[oblate]", "free_symmetric_top[prolate]"
 
@@ -27,6 +27,19 @@ def test_how_many_steps_the_variants_of_a_scene_are_run_at(extent, first, second
     assert any(f"a {extent.name.lower()} run" in note for note in laid.notes) == (
         extent in (Extent.QUICK, Extent.USUAL)
     )
+
+
+@pytest.mark.parametrize(
+    ("extent", "what"), [(Extent.FULL, "Run times, and errors over them,"), (Extent.USUAL, "")]
+)
+def test_of_a_second_variant_it_is_said_that_it_was_not_timed(extent, what):
+    _, laid = cells(extent)
+    assert {record.scene for record in to_time(laid, laid.records)} == {LADDER}
+    (said,) = not_to_time(laid)
+    assert said.startswith(what or "Run times are")
+    assert "first variant of each scene: the others (1 of 2), most of which" in said
+    _, alone = cells(extent, [ALONE])
+    assert not not_to_time(alone)
 
 
 @pytest.mark.parametrize("extent", Extent)
