@@ -105,6 +105,23 @@ def test_a_run_of_unknown_origin_is_refused(runs):
         judge([stranger])
 
 
+def test_two_runs_of_one_step_are_refused(runs):
+    words = f"trajectories: got two of {FREE.full_name} in alpha 1.0 own at dt {runs[0].provenance.dt:g} s"
+    with pytest.raises(InputError, match=re.escape(words)):
+        judge([*runs[:3], runs[0]])
+
+
+def test_a_check_that_could_not_be_made_keeps_nobody_from_being_a_twin(ahead):
+    scene = scenes()["two_body[spring]"]  # of a scheme unheard of no theory is known there
+    runs = [
+        ahead(scene, scene.dt, c=0.0, engine=engine, twin="unheard of", stable_step=sought)
+        for engine, sought in (("alpha", ()), ("beta", (0.1, 0.2)))
+    ]
+    found = judge(runs, known=())
+    assert Status.UNSUPPORTED in {v.status for v in found}
+    assert {v.measured for v in found if v.check == "twin"} == {0.0}
+
+
 ARRAYS = ("t", "position", "quaternion", "velocity", "omega", "joint_position", "joint_velocity")
 
 

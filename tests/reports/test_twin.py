@@ -103,9 +103,8 @@ def test_a_suspect_is_not_held_against_the_others(run):
     suspects = {ladder_of(run("beta").provenance)}
     found = checked(run("alpha"), run("beta", 1e-9), suspects=suspects)
     assert found["alpha"].status is Status.PASS
-    assert (
-        found["alpha"].message == "no twin check: every engine with the same scheme fails checks of its own"
-    )
+    said = "no twin check: every engine with the same scheme fails checks of its own, or as is on record"
+    assert found["alpha"].message == said
     assert found["beta"].status is Status.FAIL
     # Among three the sound ones are still held against each other.
     three = checked(run("alpha"), run("beta", 1e-9), run("gamma", 1e-9), suspects=suspects)
@@ -120,6 +119,61 @@ def test_the_judge_suspects_who_fails_a_check_of_its_own(run):
         (v.engine, v.check) for v in judge([run("alpha"), wrong], known=()) if v.status is not Status.PASS
     }
     assert failed == {("beta", "setup"), ("beta", "twin")}
+
+
+def test_of_two_that_differ_only_the_one_whose_samples_do_not_follow_fails(run):
+    sound = ladder_of(run("alpha").provenance)
+    found = checked(run("alpha"), run("beta", 1e-9), follows=lambda ladder: ladder == sound)
+    assert found["alpha"].status is Status.PASS
+    assert found["alpha"].message.endswith("only this one's samples follow from one another")
+    assert found["beta"].status is Status.FAIL
+    assert found["beta"].message.endswith("; its samples follow from one another, these do not")
+
+
+@pytest.mark.parametrize("sound", [True, False])
+def test_where_both_or_neither_of_two_follow_both_fail_and_one_is_meant(run, sound):
+    found = checked(run("alpha"), run("beta", 1e-9), follows=lambda ladder: sound)
+    for verdict in found.values():
+        assert verdict.status is Status.FAIL
+        assert verdict.message.endswith("; one of the two is wrong: nothing here tells which")
+
+
+def test_two_that_agree_do_not_outvote_the_one_whose_samples_follow(run):
+    runs = [run("alpha"), run("beta", 1e-9), run("gamma", 1e-9)]
+    sound = ladder_of(runs[0].provenance)
+    found = checked(*runs, follows=lambda ladder: ladder == sound)
+    assert {name for name, v in found.items() if v.status is Status.FAIL} == {"beta", "gamma"}
+
+
+def test_where_twins_agree_or_suspects_alone_differ_nobodys_samples_are_asked_for(run):
+    def follows(ladder):
+        raise AssertionError
+
+    assert {v.status for v in checked(run("alpha"), run("beta"), follows=follows).values()} == {Status.PASS}
+    suspects = {ladder_of(run("beta").provenance)}
+    assert checked(run("alpha"), run("beta", 1e-9), suspects=suspects, follows=follows)
+    assert checked(run("alpha"), run("beta", 1e-9), known=[KNOWN], suspects=suspects, follows=follows)
+
+
+def test_the_judge_acquits_the_engine_whose_samples_follow(run):
+    pytest.importorskip("pinocchio")
+    from poinsot.adapters.pinocchio_ import Pinocchio
+    from poinsot.adapters.simulate import simulate
+
+    right, _ = simulate(SCENE, Pinocchio, Pinocchio.schemes[0], SCENE.dt)
+    later = replace(right.provenance, engine="beta")
+    wrong = replace(right, omega=right.omega * (1 + 1e-9), provenance=later)
+    found = {v.engine: v.status for v in judge([right, wrong], known=()) if v.check == "twin"}
+    assert found == {"pinocchio": Status.PASS, "beta": Status.FAIL}
+
+
+def test_what_is_no_number_is_not_near(run):
+    alpha, beta = run("alpha"), run("beta")
+    omega = beta.omega.copy()
+    omega[70] = np.nan
+    found = checked(alpha, replace(beta, omega=omega))
+    assert {v.status for v in found.values()} == {Status.FAIL}
+    assert {v.at for v in found.values()} == {alpha.t[70]}
 
 
 KNOWN = Deviation(SCENE.full_name, "beta", "own", ">=1,<2", "twin", "state", 2e-9, "it rounds")
