@@ -34,11 +34,23 @@ class Fit(NamedTuple):
 
 
 def check(ladder: Sequence[Cell]) -> list[Verdict]:
-    """Order and limit of every state observable, from cells that differ in their step alone."""
+    """Order and limit of every state observable, from cells that differ in their step alone.
+
+    Steps coarser than the scene's own ladder are left out: there the scheme's error need not fall with
+    its order yet. Where too few others were run, one verdict says so.
+    """
     by_step = {cell.provenance.dt: cell for cell in ladder}
-    cells = [by_step[dt] for dt in sorted(by_step, reverse=True)]
-    if len(cells) < STEPS:
+    every = [by_step[dt] for dt in sorted(by_step, reverse=True)]
+    if len(every) < STEPS:
         return []
+    coarsest = _coarsest(every[0])
+    cells = [cell for cell in every if cell.provenance.dt <= coarsest * (1 + 1e-9)]
+    if len(cells) < STEPS:
+        message = (
+            f"order not measured: {len(cells)} of {len(every)} steps are within {coarsest:g} s, up to which "
+            f"this scene tells it; {STEPS} are needed"
+        )
+        return [every[-1].verdict("order", "state", Status.UNSUPPORTED, message)]
     states = [o for o in cells[0].scene.observables if o.kind == "state"]
     return [verdict for o in states for verdict in (_order(cells, o), _limit(cells, o))]
 
@@ -62,6 +74,13 @@ def fit(dts: Array, errors: Array) -> Fit:
     residual = y - y.mean() - slope * x
     spread = float(np.sqrt(residual @ residual / max(1, len(x) - 2) / (x @ x)))
     return Fit(slope, spread, len(x))
+
+
+def _coarsest(cell: Cell) -> float:
+    """The coarsest step [s] of the ladder of its scene and scheme; infinite where there is none."""
+    scene, p = cell.scene, cell.provenance
+    ladder = scene.ladder(p.order, p.twin)
+    return max(map(scene.whole_step, ladder)) if len(ladder) > 1 else float("inf")
 
 
 def _order(cells: Sequence[Cell], observable: Observable) -> Verdict:

@@ -211,3 +211,19 @@ def test_a_limit_leaves_out_a_step_that_is_near_to_a_finer_one(ahead):
 def test_of_steps_that_are_all_near_to_one_another_a_limit_takes_all(ahead):
     verdicts = limits(checked([ahead(SCENE, dt) for dt in (1e-3, 9.6e-4, 9.2e-4, 8.8e-4, 8.4e-4)]))
     assert all(verdict.status is Status.PASS for verdict in verdicts.values())
+
+
+def test_steps_coarser_than_the_scenes_own_ladder_do_not_count(ahead):
+    coarse = [noisy(ahead(SCENE, dt), np.random.default_rng(2), 0.1) for dt in (0.02, 0.01)]
+    runs = [ahead(SCENE, dt) for dt in STEPS]
+    assert checked([*coarse, *runs]) == checked(runs)
+    (verdict,) = checked([*coarse, *runs[1:]])
+    assert (verdict.check, verdict.status, verdict.dt) == ("order", Status.UNSUPPORTED, STEPS[-1])
+    assert verdict.message == (
+        "order not measured: 4 of 6 steps are within 0.004 s, up to which this scene tells it; 5 are needed"
+    )
+
+
+def test_a_scene_without_a_ladder_takes_any_steps(ahead):
+    own = replace(SCENE, ladders={})
+    assert {v.check for v in checked([ahead(own, 10 * dt) for dt in STEPS], own)} == {"order", "truth"}
