@@ -22,6 +22,10 @@ STEPS = 200
 #: The largest energy of the last third over that of the first from which on it counts as growing. A sampled
 #: oscillation that stays bounded shows less than 2, as two samples of it never both miss its height.
 GROWTH = 4.0
+#: What never falls, and rises at this part of all looks or more to so many times the start, grows as well,
+#: however slowly: taken explicitly, a gyroscopic torque adds the same part of the energy at each step, if
+#: only while a body tumbles. What oscillates, or is damped, falls again; what jumps once rises seldom.
+RISING, RISE, ROUNDING = 1 / 3, 1.001, 1e-12
 #: Energy, in units of the start's, past which no more steps are needed. Semi-implicit Euler's may rise to
 #: 4/ε within a part ε of its limit, and stay bounded.
 BEYOND = 1e6
@@ -31,12 +35,14 @@ AT_ONCE = 20
 PRECISION = 5e-3
 #: Each trial's step is so many times the one before, until one grows or this many have not.
 FACTOR, TRIALS = 4.0, 11
+#: Where the first step grows already, so many are tried that are each smaller by the same factor.
+SMALLER = 3
 
 
 class StableStep(NamedTuple):
     """The largest step [s] that was seen to hold, and the smallest above it that was seen to grow.
 
-    ``held`` is 0 if the first step tried grew already, ``grew`` infinite if none did.
+    ``held`` is 0 if all that were tried grew, ``grew`` infinite if none did.
     """
 
     held: float
@@ -44,7 +50,10 @@ class StableStep(NamedTuple):
 
 
 def stable_step(machine: Engine, scene: Scene, scheme: Scheme) -> StableStep:
-    """Where ``scene`` begins to grow: tried at its own step, at larger ones, then halved between two."""
+    """Where ``scene`` begins to grow: tried at its own step, at larger ones, then halved between two.
+
+    If it grows at its own step, smaller ones are tried over the same time.
+    """
     held, grew = 0.0, float("inf")
     step = scene.dt
     for _ in range(TRIALS):
@@ -52,6 +61,12 @@ def stable_step(machine: Engine, scene: Scene, scheme: Scheme) -> StableStep:
             grew = step
             break
         held, step = step, step * FACTOR
+    for _ in range(0 if held else SMALLER):
+        step = grew / FACTOR
+        if not grows(machine, scene, scheme, step):
+            held = step
+            break
+        grew = step
     while 0 < held < grew / (1 + PRECISION) < float("inf"):
         middle = float(np.sqrt(held * grew))
         if grows(machine, scene, scheme, middle):
@@ -64,19 +79,21 @@ def stable_step(machine: Engine, scene: Scene, scheme: Scheme) -> StableStep:
 def grows(machine: Engine, scene: Scene, scheme: Scheme, dt: float) -> bool:
     """Whether the energy grows over ``STEPS`` steps of ``dt`` [s], or the engine can tell no state any more.
 
+    Below the scene's own step so many more are taken that the time is the same, and slow growth counts.
     Raises what ``Engine.build`` raises if the engine does not take the scene.
     """
     machine.build(scene, scheme, dt)
+    stride = max(1, round(scene.dt / dt))
     energies = _energies(machine, scene, 0)
     while len(energies) <= STEPS:
         try:
-            energies += _energies(machine, scene, AT_ONCE)
+            energies += _energies(machine, scene, AT_ONCE, stride)
         # ValueError and ArithmeticError: Python's own mathematics of what is not finite.
         except (EngineError, ValueError, ArithmeticError):
             return True
         if beyond(energies):
             return True
-    return grown(energies)
+    return grown(energies) or (dt < scene.dt and rises(energies))
 
 
 def beyond(energies: Sequence[float]) -> bool:
@@ -90,14 +107,23 @@ def grown(energies: Sequence[float]) -> bool:
     return beyond(energies) or max(energies[-third:]) > GROWTH * max(energies[:third])
 
 
-def _energies(machine: Engine, scene: Scene, steps: int) -> list[float]:
-    """Energy [J] after each of so many steps; of where it is now if there are none."""
+def rises(energies: Sequence[float]) -> bool:
+    """Whether energies, one a sample, never fall, beyond rounding, and often rise."""
+    found = np.array(energies)
+    rounding = ROUNDING * np.abs(found[:-1])
+    gains = np.diff(found)
+    steady = np.all(gains >= -rounding) and np.mean(gains > rounding) >= RISING
+    return bool(steady and found[-1] > RISE * found[0])
+
+
+def _energies(machine: Engine, scene: Scene, looks: int, stride: int = 1) -> list[float]:
+    """Energy [J] at each of so many looks, ``stride`` steps apart; where it is now if there are none."""
     states = []
     # A run past its limit leaves the range of doubles, which is what is looked for.
     with np.errstate(all="ignore"):
-        for _ in range(max(steps, 1)):
-            if steps:
-                machine.step(1)
+        for _ in range(max(looks, 1)):
+            if looks:
+                machine.step(stride)
             states.append(looked(machine)[0])
         parts = (np.array(part) for part in zip(*states, strict=True))
         motion = Trajectory(np.zeros(len(states)), *State(*parts))

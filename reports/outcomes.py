@@ -6,7 +6,7 @@ from enum import Enum
 import numpy as np
 
 from ..adapters.observed import SAMPLES, Observed
-from ..adapters.stable_step import BEYOND, GROWTH, grown
+from ..adapters.stable_step import BEYOND, GROWTH, RISE, grown, rises
 from ..reference.checked import Array
 from ..scenarios import mechanics
 from ..scenarios.scene import Scene
@@ -48,7 +48,7 @@ _SENTENCES = {
     Outcome.ACCURATE: f"within {ACCURATE:.0%} of the exact motion, in every observable, at every sample",
     Outcome.BOUNDED: "further from the exact motion, but its energy does not grow",
     Outcome.GROWING: f"energy rises: its largest in the last third of the run is over {GROWTH:g} times that "
-    f"in the first, or {BEYOND:g} times that of the start",
+    f"in the first, or {BEYOND:g} times that of the start, or it rises steadily, by {RISE - 1:.1%} or more",
     Outcome.CLAMPED: "a speed stays at one value, reached at once and far from the exact one",
     Outcome.RESET: "everything falls back to the start, or to rest, or comes back from what is not finite",
     Outcome.NOT_FINITE: "a position or velocity is infinite or no number",
@@ -124,7 +124,8 @@ def _outcome(motion: Trajectory, truth: Trajectory, energies: Array, error: floa
         return Outcome.RESET
     if error <= ACCURATE:
         return Outcome.ACCURATE
-    return Outcome.GROWING if grown(energies.tolist()) else Outcome.BOUNDED
+    seen = energies.tolist()
+    return Outcome.GROWING if grown(seen) or rises(seen) else Outcome.BOUNDED
 
 
 def _error(scene: Scene, motion: Trajectory, truth: Trajectory) -> float:

@@ -93,7 +93,7 @@ def test_a_run_that_is_accurate_only_so_far_goes_on(tmp_path):
     (found,) = stability_results.read(out / "stability.json")["maps"]
     points = {(point["value"], point["dt"]): point for point in found["points"]}
     for place in ((10.0, 1e-4), (100.0, 1e-5)):
-        assert points[place]["outcome"] == "inaccurate but bounded"
+        assert points[place]["outcome"] == "growing"
         assert points[place]["covered"] == 1
     assert points[10.0, 1e-7]["covered"] == pytest.approx(4000 * 1e-7 / 3.2)
 

@@ -13,14 +13,16 @@ pytest.importorskip("pybullet")
 from poinsot.adapters.engine import Scheme
 from poinsot.adapters.mujoco_ import MuJoCo
 from poinsot.adapters.pinocchio_ import Pinocchio
+from poinsot.adapters.pinocchio_schemes import semi_implicit_euler
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.adapters.simulate import simulate
+from poinsot.adapters.stable_step import rises, stable_step
 from poinsot.reference import scheme_stability
 from poinsot.reports import stability
 from poinsot.reports.cell import Cell
 from poinsot.reports.stability import TOLERANCE, deviation
 from poinsot.reports.verdict import Status
-from poinsot.scenarios import stiff_spring
+from poinsot.scenarios import extreme_tops, stiff_spring
 from poinsot.scenarios.registry import scenes
 from wrong_engines.stability import DampedSteps
 
@@ -70,6 +72,48 @@ def test_hidden_damping_moves_the_limit():
     verdict = judged(DampedSteps)
     assert verdict.status is Status.FAIL
     assert verdict.measured == pytest.approx(1 - np.sqrt(3.8) / 2, rel=0.1)
+
+
+class HeldByDamping(Pinocchio):
+    """Takes a gyroscopic torque explicitly, and a part in 1000 of what spins across the axis at each step."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+
+        def damped(system, q, v, dt, n):
+            for _ in range(n):
+                q, v = semi_implicit_euler(system, q, v * [1, 1, 1, 0.999, 0.999, 1], dt, 1)
+            return q, v
+
+        self._advance = damped
+
+
+@pytest.mark.parametrize(("engine", "status"), [(Pinocchio, Status.PASS), (HeldByDamping, Status.FAIL)])
+def test_what_grows_at_any_step_grows_at_small_ones(engine, status):
+    scene = extreme_tops.spin(10.0)
+    theory = scene.stable_step(scene, "semi-implicit Euler")
+    assert theory == 0
+    machine = engine()
+    try:
+        held, grew = stable_step(machine, scene, engine.schemes[0])
+    finally:
+        machine.close()
+    found, _, message = stability.told(held, grew, theory)
+    assert found is status, message
+    if engine is HeldByDamping:
+        # (1 + z²) 0.999² = 1: six times below the step that is tried first.
+        assert stability.between(held, grew) * 10 == pytest.approx(np.sqrt(0.999**-2 - 1), rel=TOLERANCE)
+        assert "by theory it grows at any step; beyond what the scheme can do" in message
+    else:
+        assert (held, grew) == (0.0, scene.dt / 64)
+
+
+def test_slow_growth_is_told_from_what_falls_again_or_jumps():
+    t = np.linspace(0.0, 1.0, 201)
+    assert rises((1 + 0.002 * t).tolist())
+    assert rises(np.exp(t).tolist())
+    for energies in (np.ones(201), 1 + 1e-4 * t, 1 - t / 2, 1 + 0.1 * np.sin(9 * t), 1 + (t > 0.5)):
+        assert not rises(energies.tolist())
 
 
 def test_a_scheme_without_theory_is_measured_and_not_judged():
