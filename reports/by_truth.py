@@ -62,6 +62,7 @@ def _fits(evidence: Evidence, apart: Array, noise: Array) -> Iterator[tuple[floa
     states = [o for o in evidence.scene.observables if o.kind == "state"]
 
     def effect(change: "_Change", x: float) -> Array | None:
+        evidence.in_time()
         try:
             other = change.made(evidence.scene, x)
             motion = other.truth(other, cell.trajectory.t)

@@ -3,12 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from time import perf_counter
 
 import numpy as np
 
 from ..adapters.centred import centred
 from ..reference import quaternions, tree_schemes
 from ..reference.checked import EPSILON, Array
+from ..reference.errors import PoinsotError
 from ..scenarios.equations import states
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Trajectory
@@ -32,16 +34,29 @@ SCHEMES = ("semi-implicit Euler", "RKMK4", IMPLICIT, "RK4 of body velocities", "
 MANY = 20
 
 
+class OutOfTimeError(PoinsotError):
+    """A search took longer than it was granted."""
+
+
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Cells of one scene, engine and scheme, from the coarsest step to the finest."""
+    """Cells of one scene, engine and scheme, from the coarsest step to the finest.
+
+    ``until`` is when, by `perf_counter`, whatever still asks it to try something gets ``OutOfTimeError``.
+    """
 
     cells: tuple[Cell, ...]
+    until: float = float("inf")
 
     @classmethod
-    def of(cls, cells: Sequence[Cell]) -> "Evidence":
+    def of(cls, cells: Sequence[Cell], until: float = float("inf")) -> "Evidence":
         """The cells of a ladder, in any order."""
-        return cls(tuple(sorted(cells, key=lambda cell: -cell.provenance.dt)))
+        return cls(tuple(sorted(cells, key=lambda cell: -cell.provenance.dt)), until)
+
+    def in_time(self) -> None:
+        """Raises ``OutOfTimeError`` if its time is up."""
+        if perf_counter() > self.until:
+            raise OutOfTimeError("out of time")
 
     @property
     def scene(self) -> Scene:
@@ -98,6 +113,7 @@ class Evidence:
 
     def of_intervals(self, intervals: Intervals | None) -> Array:
         """The same of others."""
+        self.in_time()
         if intervals is None:
             return np.empty((0, 0))
         with np.errstate(all="ignore"):
@@ -109,6 +125,7 @@ class Evidence:
         with np.errstate(all="ignore"):
             # Most that are not differ in any few.
             for which in (np.arange(0, n, max(1, n // FEW)), np.arange(n)):
+                self.in_time()
                 if size(intervals.residual(self.model, scheme, which, stretch, count)) > NOTHING:
                     return False
         return True
@@ -124,6 +141,7 @@ class Evidence:
 
     def fit_to_motion(self, model: Model) -> Array:
         """Residual of a supposed model over some intervals."""
+        self.in_time()
         if self.intervals is None:
             return np.empty(0)
         n = len(self.intervals.q) - 1
@@ -140,6 +158,7 @@ class Evidence:
 
     def fit_to_accelerations(self, model: Model) -> Array:
         """Force that a supposed model leaves over at those states, in roundings of the forces in it."""
+        self.in_time()
         if self.accelerations is None:
             return np.empty(0)
         apart = self.accelerations - model.accelerate(*states(self.scene))

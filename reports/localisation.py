@@ -19,7 +19,7 @@ from .by_truth import in_truth
 from .cell import Cell
 from .centres import displaced_centres, elsewhere
 from .common_causes import Localisation
-from .evidence import IMPLICIT, MANY, NOTHING, Evidence, inconsistency
+from .evidence import IMPLICIT, MANY, NOTHING, Evidence, OutOfTimeError, inconsistency
 from .fitting import Explanation, Residual, fitted, fitted_together, size
 from .intervals import Intervals
 from .plain_mistakes import alternatives
@@ -32,7 +32,8 @@ from .verdict import Ladder, Status, Verdict, ladder_of
 from .wording import listed
 
 NOT_FOUND = "not localised"
-#: Time [s] after which no further ladder is looked into: an engine wrong everywhere is wrong in one way.
+#: Time [s] after which no further ladder is looked into, as an engine wrong everywhere is wrong in one way,
+#: and for which any one is.
 LONGEST = 30.0
 #: Rounds in which a velocity that its own acceleration depends on settles.
 SETTLED = 20
@@ -54,20 +55,22 @@ def localised(cells: Sequence[Cell], verdicts: Iterable[Verdict]) -> list[Locali
             late = f"{NOT_FOUND}: not looked into, after {len(result)} others"
             result.append(Localisation(ladder, (late,), found=False))
             continue
+        evidence = Evidence.of(mine, until=perf_counter() + LONGEST)
+        causes: tuple[str, ...] = ()
         try:
-            causes = _causes(mine, failed[ladder])
+            causes = _causes(evidence, failed[ladder])
+            told = causes or (_nothing(evidence, failed[ladder]),)
+        except OutOfTimeError:
+            told = (f"{NOT_FOUND}: the search stopped after {LONGEST:g} s",)
         except (ArithmeticError, ValueError, PoinsotError) as error:
             # A report says what failed, whether or not it can say why.
-            broken = f"{NOT_FOUND}: the search for a cause broke down ({error})"
-            result.append(Localisation(ladder, (broken,), found=False))
-            continue
-        result.append(Localisation(ladder, causes or (_nothing(mine, failed[ladder]),), bool(causes)))
+            told = (f"{NOT_FOUND}: the search for a cause broke down ({error})",)
+        result.append(Localisation(ladder, told, bool(causes)))
     return result
 
 
-def _causes(cells: Sequence[Cell], failed: Sequence[Verdict]) -> tuple[str, ...]:
+def _causes(evidence: Evidence, failed: Sequence[Verdict]) -> tuple[str, ...]:
     """Sentences that explain the runs of one ladder, of whose checks ``failed`` did; empty if none does."""
-    evidence = Evidence.of(cells)
     if evidence.right:
         return _of_a_right_motion(evidence, failed)
     for look in _LOOKS:
@@ -167,6 +170,7 @@ def _clock(evidence: Evidence, cut: Intervals) -> str:
     x, width, which = 0.0, 1e-6, np.arange(0, len(cut.q) - 1, 5)
 
     def residual(x: float) -> Array:
+        evidence.in_time()
         return cut.residual(evidence.model, evidence.scheme, which, stretch=1 + x).ravel()
 
     for _ in range(4):
@@ -260,8 +264,7 @@ def _left(residual: Residual, model: Model) -> Array | None:
         return None
 
 
-def _nothing(cells: Sequence[Cell], failed: Sequence[Verdict]) -> str:
-    evidence = Evidence.of(cells)
+def _nothing(evidence: Evidence, failed: Sequence[Verdict]) -> str:
     orders = [v.message for v in failed if v.check == "order" and v.measured is not None]
     if evidence.right:
         ruled = "every sample follows from the one before, by equations and scheme, to rounding"

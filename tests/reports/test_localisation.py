@@ -13,6 +13,7 @@ from poinsot.adapters.mujoco_ import MuJoCo
 from poinsot.adapters.pinocchio_ import Pinocchio
 from poinsot.adapters.pybullet_ import PyBullet
 from poinsot.adapters.simulate import simulate
+from poinsot.reports import evidence, localisation
 from poinsot.reports.cell import Cell
 from poinsot.reports.common_causes import Localisation, grouped, spoken
 from poinsot.reports.evidence import NOTHING, Evidence
@@ -81,9 +82,9 @@ def test_every_interval_of_a_right_run_follows_from_its_start_to_rounding(engine
     """What all sentences rest on: equations, scheme and telling are known here as engines have them."""
     scheme = next(scheme for scheme in engine.schemes if scheme.twin == twin)
     run, _ = simulate(scenes()[scene], engine, scheme, max(scenes()[scene].ladder(scheme.order, twin)))
-    evidence = Evidence.of([Cell.of(run, dict(scenes()))])
-    assert size(evidence.residual) < NOTHING / 3
-    assert evidence.right
+    found = Evidence.of([Cell.of(run, dict(scenes()))])
+    assert size(found.residual) < NOTHING / 3
+    assert found.right
 
 
 def test_a_right_engine_at_a_step_far_too_coarse_is_not_accused_of_anything():
@@ -124,6 +125,21 @@ def test_a_short_log_of_one_step_size_is_enough():
     assert said([replace(run, provenance=replace(run.provenance, accelerations=()))]) == [
         "gravity is 9.7119 m/s², not 9.81"
     ]
+
+
+def test_a_search_stops_when_its_time_is_up(monkeypatch):
+    class Both(MuJoCo):
+        def build(self, scene, scheme, dt):
+            super().build(scene, scheme, dt)
+            self._model.opt.gravity *= 1.01
+            self._model.dof_damping[:] = 1e-3
+
+    asked = []
+    monkeypatch.setattr(localisation, "perf_counter", lambda: 0.0)
+    monkeypatch.setattr(evidence, "perf_counter", lambda: asked.append(1) or float(len(asked)))
+    (sentence,) = said(ladder(Both, TOP, SE))
+    assert sentence == "not localised: the search stopped after 30 s"
+    assert len(asked) == 31
 
 
 def one(scene, *causes, found=True, scheme="Euler"):
