@@ -60,6 +60,14 @@ def between(held: float, grew: float) -> float:
     return grew if math.isinf(grew) else math.sqrt(held * grew)
 
 
+def bracket(held: float, grew: float) -> float:
+    """How far from the middle the limit may be, as a part of it: half of what the halving left open.
+
+    0 where no step that holds, or none that grows, was seen.
+    """
+    return 0.0 if not held or math.isinf(grew) else math.sqrt(grew / held) - 1
+
+
 def _seen(held: float, grew: float) -> str:
     if math.isinf(grew):
         return f"energy stays bounded at every step up to {held:.4g} s, the largest tried"

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from . import templating
 from .outcomes import LONGEST, Outcome
-from .stability import TOLERANCE, between, deviation
+from .stability import TOLERANCE, between, bracket, deviation
 from .stability_map import SIGNS, picture, sign
 from .verdict import Status
 from .wording import number
@@ -75,7 +75,10 @@ def who(found: Mapping[str, Any]) -> str:
 
 
 def _limits(found: Mapping[str, Any], verdicts: list[dict[str, Any]]) -> tuple[str, ...]:
-    """Family, scheme, theory in words, the limits measured, the worst deviation, and the verdicts."""
+    """Family, scheme, theory in words, the limits measured, the worst deviation, and the verdicts.
+
+    What the halving left open stands beside both: of limits that theory gives, the deviation is no better.
+    """
     theory = {row["value"]: row["limit"] for row in found["theory"]}
     worst = max(_deviation(limit, theory[limit["value"]]) for limit in found["limits"])
     mine = [
@@ -86,17 +89,23 @@ def _limits(found: Mapping[str, Any], verdicts: list[dict[str, Any]]) -> tuple[s
     ]
     judged = ", ".join(f"{n} {status}" for status, n in Counter(mine).items())
     measured = _range([_between(limit) for limit in found["limits"]])
-    return found["family"], who(found), _range(list(theory.values())), measured, number(worst), judged
+    left = max(bracket(limit["held"], _grew(limit)) for limit in found["limits"])
+    open_by = f" ± {100 * left:.2g} %" if left else ""
+    off = number(worst) + (f" ± {number(left)}" if left else "")
+    return found["family"], who(found), _range(list(theory.values())), measured + open_by, off, judged
 
 
 def _between(limit: Mapping[str, Any]) -> float | str:
-    middle = between(limit["held"], math.inf if limit["grew"] is None else limit["grew"])
+    middle = between(limit["held"], _grew(limit))
     return "any" if math.isinf(middle) else middle
 
 
 def _deviation(limit: Mapping[str, Any], theory: float | str) -> float:
-    grew = math.inf if limit["grew"] is None else limit["grew"]
-    return deviation(limit["held"], grew, math.inf if theory == "any" else float(theory))
+    return deviation(limit["held"], _grew(limit), math.inf if theory == "any" else float(theory))
+
+
+def _grew(limit: Mapping[str, Any]) -> float:
+    return math.inf if limit["grew"] is None else float(limit["grew"])
 
 
 def _range(limits: list[Any]) -> str:

@@ -107,6 +107,16 @@ def test_page_says_what_failed_and_what_lies_past_the_limit(page):
     assert "Runs are cut short after 4000 steps" in page
 
 
+def test_a_limit_says_what_the_halving_left_open(tmp_path, page):
+    # (0.2001/0.1999)^½ − 1, and (0.51/0.5)^½ − 1 of the worse.
+    assert stability.bracket(0.1999, 0.2001) == pytest.approx(5e-4, rel=1e-3)
+    assert "± 1 %</td>" in page
+    for limit in (StableStep(1e3, math.inf), StableStep(0.0, 0.1)):
+        stability_page.render(made(limit, points=[(100.0, 1e-6)]), tmp_path / "other.html")
+        row = (tmp_path / "other.html").read_text(encoding="utf-8").partition("<tbody>")[2]
+        assert "±" not in row.partition("</tbody>")[0]
+
+
 def test_signs_are_told_apart_by_glyph_and_by_colour():
     glyphs, colours = zip(*stability_map.SIGNS.values(), strict=True)
     assert len(set(glyphs)) == len(set(colours)) == len(Outcome)
