@@ -123,9 +123,10 @@ def beyond(
         if isinstance(result, str):
             engine = registry.load(request.engine)
             scheme = registry.scheme_of(engine, request.scheme)
-            result = broken(scenes()[request.scene], engine, scheme, request.dt, result)
+            found += broken(scenes()[request.scene], engine, scheme, request.dt, result)
             failed[f"{engine.name} {scheme.name}"].append(f"{request.scene} {request.dt:.2g} s")
-        found += [with_time(row, times[request]) for row in result]
+        else:
+            found += [with_time(row, times[request]) for row in result]
     found.sort(key=lambda row: (row["scene"], row["engine"], row["scheme"], -row["dt"]))
     return found, short + [
         f"Error over run time, {scheme}: no error, for reasons that its rows tell, in {', '.join(where)}."
