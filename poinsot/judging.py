@@ -2,7 +2,7 @@
 
 import multiprocessing
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
@@ -102,7 +102,7 @@ def _judged(
             verdicts=verdicts,
             localised=_localised(cells, verdicts),
             rows=rows,
-            notes=[_without(cell, missing) for cell in cells if (missing := truth.without_constant(cell))],
+            notes=_notes(cells, verdicts),
             partly=order.partly(cells),
         )
     with spent.on("pictures"):
@@ -127,12 +127,18 @@ def _shown(cells: Sequence[Cell]) -> Motion:
     return Motion(scene, tuple(cell.trajectory for cell in own or cells))
 
 
-def _without(cell: Cell, observables: Collection[str]) -> str:
-    p = cell.provenance
-    return (
-        f"{p.engine} {p.scheme} in {p.scene} at dt {p.dt:g} s: no error constant is recorded for "
-        f"{', '.join(observables)}; judged by order and limit alone."
-    )
+def _notes(cells: Sequence[Cell], verdicts: Sequence[Verdict]) -> list[str]:
+    """What is known of no cell's own step, and judged over its ladder alone."""
+    blind = {(v.scene, v.engine, v.scheme, v.dt) for v in verdicts if v.status is Status.UNSUPPORTED}
+    found = []
+    for cell in cells:
+        p, missing = cell.provenance, truth.without_constant(cell)
+        if missing and (p.scene, p.engine, p.scheme, p.dt) not in blind:
+            found.append(
+                f"{p.engine} {p.scheme} in {p.scene} at dt {p.dt:g} s: no error constant is recorded for "
+                f"{', '.join(missing)}; judged by order and limit alone."
+            )
+    return found
 
 
 def _read(folder: Path, record: CellRecord) -> Trajectory:

@@ -56,9 +56,8 @@ class Intervals:
             return None
         q, v = state
         stride = scene.steps_per_sample(dt)
-        return cls(
-            central, q, v, dt, stride, _rounding(central, q, v, stride), _leftover(central, told, q, v)
-        )
+        leftover = {name: float(np.abs(values).max()) for name, values in apart(central, told, q, v)}
+        return cls(central, q, v, dt, stride, _rounding(central, q, v, stride), leftover)
 
     def residual(
         self,
@@ -166,17 +165,21 @@ def _rounding(scene: Scene, q: Array, v: Array, stride: int) -> Array:
     return np.asarray(np.concatenate([share * size, share * speed]))
 
 
-def _leftover(scene: Scene, told: Trajectory, q: Array, v: Array) -> dict[str, float]:
+def apart(scene: Scene, told: Trajectory, q: Array, v: Array) -> list[tuple[str, Array]]:
+    """What is told of bodies less what follows from their joints, (n, b, 3) each, by name.
+
+    Position [m], orientation [rad], velocity [m/s] and omega [rad/s] of a centred scene whose joints have the
+    coordinates ``q`` (n, nq) and the velocities ``v`` (n, nv).
+    """
     q = unit_quaternions(scene, q)
     position, quaternion, velocity, omega = equations_of_motion.link_motion(links(scene), q, v)
     turn = quaternions.product(quaternions.conjugate(quaternion), told.quaternion)
-    found = {
-        "position": told.position - position,
-        "orientation": quaternions.rotation_vector(turn),
-        "velocity": told.velocity - velocity,
-        "omega": told.omega - omega,
-    }
-    return {name: float(np.abs(values).max()) for name, values in found.items()}
+    return [
+        ("position", told.position - position),
+        ("orientation", quaternions.rotation_vector(turn)),
+        ("velocity", told.velocity - velocity),
+        ("omega", told.omega - omega),
+    ]
 
 
 def unit_quaternions(scene: Scene, q: Array) -> Array:

@@ -8,7 +8,7 @@ from ..reference.errors import InputError, PoinsotError
 from ..scenarios.registry import scenes as all_scenes
 from ..scenarios.scene import Scene
 from ..scenarios.trajectory import Provenance, Trajectory
-from . import acceleration, deviations, order, setup, stability, truth, twin
+from . import acceleration, deviations, order, setup, stability, told, truth, twin
 from .cell import Cell
 from .deviations import Deviation
 from .verdict import Ladder, Status, Verdict, ladder_of
@@ -40,11 +40,14 @@ def judge_cells(cells: Sequence[Cell], known: Iterable[Deviation] | None = None)
     sound = [cell for cell in cells if cell.trajectory.first_not_finite() is None]
     checks = (truth.check, setup.check, setup.determinism, acceleration.check, stability.check)
     alone = [verdict for cell in sound for check in checks for verdict in check(cell)]
+    fitting = [v for group in _grouped(sound, lambda p: p.scene) for v in told.check(group)]
     by_ladder = {ladder_of(group[0].provenance): group for group in _grouped(sound, ladder_of)}
     ladders = [v for group in by_ladder.values() for v in order.check(group)]
+    ordered = {ladder_of(verdict) for verdict in ladders if verdict.status is not Status.UNSUPPORTED}
+    blind = [v for cell in sound for v in truth.blind(cell, ladder_of(cell.provenance) in ordered)]
     on_record = tuple(deviations.recorded() if known is None else known)
     partly = order.partly(cells)
-    first = deviations.applied([*broken, *alone, *ladders], on_record, partly)
+    first = deviations.applied([*broken, *alone, *fitting, *ladders, *blind], on_record, partly)
     suspects = {ladder_of(verdict) for verdict in first if verdict.status in SUSPICIOUS}
     twins = _grouped([c for c in sound if c.provenance.twin], lambda p: (p.scene, p.dt, p.twin))
     follows = cache(lambda ladder: _follows(by_ladder[ladder]))

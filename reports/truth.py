@@ -2,7 +2,7 @@
 
 from ..scenarios.observables import Observable
 from .cell import Cell
-from .verdict import Verdict
+from .verdict import Status, Verdict
 
 #: A recorded error constant is granted this factor: the next term of the error's expansion in dt.
 MARGIN = 1.5
@@ -12,6 +12,22 @@ def check(cell: Cell) -> list[Verdict]:
     """Verdicts on every observable of the scene for which the scheme's own error is known."""
     verdicts = [verdict for observable in cell.scene.observables for verdict in _judged(cell, observable)]
     return [verdict for verdict in verdicts if verdict is not None]
+
+
+def blind(cell: Cell, in_order: bool) -> list[Verdict]:
+    """A verdict that says so where nothing of the motion at this step can be judged.
+
+    ``in_order`` says whether the order of its ladder was.
+    """
+    p, missing = cell.provenance, without_constant(cell)
+    states = {o.name for o in cell.scene.observables if o.kind == "state"}
+    if not states <= set(missing) or (in_order and _on_ladder(cell)):
+        return []
+    message = (
+        f"no error of {p.engine} {p.scheme} is recorded for {', '.join(missing)} at this step, and its order "
+        "was not measured with it: what they may be off by is not known"
+    )
+    return [cell.verdict("truth", "state", Status.UNSUPPORTED, message)]
 
 
 def without_constant(cell: Cell) -> list[str]:
@@ -24,11 +40,18 @@ def own_error(cell: Cell, observable: Observable) -> float | None:
     if cell.predicted is not None:
         return cell.own_error(observable)
     p = cell.provenance
+    if observable.always and not cell.scene.errs_in(observable):
+        return 0.0
     constant = cell.scene.error_constant(p.twin, observable)
-    if constant is None or p.dt > max(cell.scene.ladder(p.order, p.twin)) * (1 + 1e-9):
+    if constant is None or not _on_ladder(cell):
         # A constant holds on the ladder it was measured on and below it, not at coarser steps.
         return None
     return constant * p.dt**p.order
+
+
+def _on_ladder(cell: Cell) -> bool:
+    p = cell.provenance
+    return p.dt <= max(cell.scene.ladder(p.order, p.twin)) * (1 + 1e-9)
 
 
 def _judged(cell: Cell, observable: Observable) -> list[Verdict]:
@@ -60,6 +83,8 @@ def _allowed(cell: Cell, observable: Observable) -> tuple[float, str] | None:
         return own * (1 + 1e-6) + floor, f"{_WORDS[observable.kind]}; {reason}{cell.granted}"
     p = cell.provenance
     constant = cell.scene.error_constant(p.twin, observable)
+    if constant is None or not own:
+        return floor, f"{_WORDS[observable.kind]}; only round-off is allowed{cell.granted}"
     reason = f"{MARGIN} × {constant:.3g}·dt^{p.order}, the scheme's own error as recorded, and round-off"
     return MARGIN * own + floor, f"{_WORDS[observable.kind]}; {reason} are allowed{cell.granted}"
 

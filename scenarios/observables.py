@@ -27,7 +27,7 @@ class Observable:
     one row a sample; a rate, measured over the whole run, has one row. ``scale(scene, b)`` is the
     size [``unit``] against which round-off is measured. A ``state`` is part of the motion itself, a
     ``rate`` is a number fitted to it, of which ``exact(scene)`` is the closed form, an ``invariant`` must
-    keep the value it began with.
+    keep the value it began with; ``always`` says that every scheme keeps it, if any does.
     """
 
     name: str
@@ -36,6 +36,7 @@ class Observable:
     difference: Callable[[Scene, Trajectory, Trajectory], Array]
     scale: Callable[[Scene, Trajectory], float]
     exact: Callable[[Scene], float] | None = None
+    always: bool = False
 
     def distance(self, scene: Scene, a: Trajectory, b: Trajectory) -> Array:
         """Length of the difference at each sample, (n,), or (1,) for a rate."""
@@ -127,6 +128,7 @@ def invariant(
     unit: str,
     compute: Callable[[Scene, Trajectory], Array],
     scale: Callable[[Scene, Trajectory], float],
+    always: bool = False,
 ) -> Observable:
     """What ``compute`` gives, (n, …), which must stay as it is at the start of the exact motion."""
 
@@ -134,7 +136,7 @@ def invariant(
         n = len(a.t)
         return np.asarray(compute(scene, a).reshape(n, -1) - compute(scene, b).reshape(n, -1)[0])
 
-    return Observable(name, unit, "invariant", difference, scale)
+    return Observable(name, unit, "invariant", difference, scale, always=always)
 
 
 def energy() -> Observable:
@@ -173,13 +175,17 @@ def axial_angular_momentum(body: int = 0) -> Observable:
 
 def momentum() -> Observable:
     """Linear momentum of all bodies, world axes."""
-    return invariant("momentum", "kg m/s", mechanics.momentum, mechanics.momentum_scale)
+    return invariant("momentum", "kg m/s", mechanics.momentum, mechanics.momentum_scale, always=True)
 
 
 def unit_norm() -> Observable:
     """Norm of the quaternions, which must stay 1."""
     return invariant(
-        "quaternion norm", "1", lambda scene, a: np.linalg.norm(a.quaternion, axis=2), lambda scene, b: 1.0
+        "quaternion norm",
+        "1",
+        lambda scene, a: np.linalg.norm(a.quaternion, axis=2),
+        lambda scene, b: 1.0,
+        always=True,
     )
 
 
@@ -189,11 +195,15 @@ def attitude() -> Observable:
     def axes(scene: Scene, a: Trajectory) -> Array:
         return np.stack([quaternions.rotated(a.quaternion, axis) for axis in np.eye(3)], axis=2)
 
-    return invariant("attitude", "1", axes, lambda scene, b: 1.0)
+    return invariant("attitude", "1", axes, lambda scene, b: 1.0, always=True)
 
 
 def turning() -> Observable:
     """Angular velocity of bodies that cannot turn; its round-off is that of one turn in the whole run."""
     return invariant(
-        "turning", "rad/s", lambda scene, a: a.omega, lambda scene, b: 2 * np.pi / scene.duration
+        "turning",
+        "rad/s",
+        lambda scene, a: a.omega,
+        lambda scene, b: 2 * np.pi / scene.duration,
+        always=True,
     )

@@ -180,6 +180,11 @@ class Scene:
         row = self.errors.get(twin)
         return None if row is None else row[self.observables.index(observable)]
 
+    def errs_in(self, observable: Observable) -> bool:
+        """Whether any scheme that is recorded has an error of its own in that observable."""
+        place = self.observables.index(observable)
+        return any(row[place] for row in self.errors.values())
+
     def ladder(self, order: int, twin: str = "") -> tuple[float, ...]:
         """Steps [s] over which to measure a scheme: its own, or those of the nearest order there is."""
         if twin in self.ladders:

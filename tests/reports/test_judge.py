@@ -170,7 +170,7 @@ def test_deviations_are_those_given(ahead):
     run = replace(run, provenance=replace(run.provenance, setup=dict(run.provenance.setup) | {"dt": 2e-3}))
     entry = Deviation(FREE.full_name, "alpha", "own", "", "setup", "dt", 2.0, "it was measured to be so")
     for known, status in (((), Status.FAIL), ((entry,), Status.KNOWN)):
-        assert {v.status for v in judge([run], known=known)} == {status}
+        assert {v.status for v in judge([run], known=known) if v.check == "setup"} == {status}
 
 
 def test_an_iterator_is_read_once(runs):

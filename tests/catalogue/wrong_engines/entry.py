@@ -139,6 +139,7 @@ def state(*names: str) -> set[str]:
 LIMITS = {"truth orientation, limit", "truth omega, limit"}
 TURNING, RATES = state("orientation", "omega"), {"truth precession", "truth nutation"}
 ENERGY, MOMENTUM, TWIN = {"invariant energy"}, {"invariant angular momentum"}, {"twin state"}
+ON_JOINTS = {"invariant bodies on their joints"}
 P_ALPHA, P_GAMMA, SPIN = {"invariant p_alpha"}, {"invariant p_gamma"}, {"truth Omega_b"}
 MODES = {f"truth frequency of the {mode} mode" for mode in ("symmetric", "antisymmetric")}
 OWN = {"truth position, scheme's own", "truth velocity, scheme's own"}

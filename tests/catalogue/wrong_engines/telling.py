@@ -9,6 +9,7 @@ from .entry import (
     ENERGY,
     FREE,
     MOMENTUM,
+    ON_JOINTS,
     P_ALPHA,
     P_GAMMA,
     PENDULUM,
@@ -120,7 +121,7 @@ WRONG = (
                 "twin state", "from its twin .* in orientation",
             ),
             Sight(
-                TOP, SE, state("orientation") | P_ALPHA | TWIN,
+                TOP, SE, state("orientation") | P_ALPHA | ON_JOINTS | TWIN,
                 "truth orientation", "distance from the exact motion",
             ),
         ),
@@ -145,7 +146,7 @@ WRONG = (
         "angular velocity is in world axes", "angular velocity", WorldOmega,
         (
             Sight(
-                TOP, RK, state("omega") | ENERGY | P_ALPHA | P_GAMMA | TWIN,
+                TOP, RK, state("omega") | ENERGY | P_ALPHA | P_GAMMA | ON_JOINTS | TWIN,
                 "twin state", "from its twin .* in omega",
             ),
         ),
@@ -153,7 +154,7 @@ WRONG = (
     ),
     Wrong(
         "position is the frame's, not the centre's", "position", FrameNotCentre,
-        (Sight(TOP, SE, RATES | ENERGY | P_ALPHA, "truth nutation", "from the exact rate"),),
+        (Sight(TOP, SE, RATES | ENERGY | P_ALPHA | ON_JOINTS, "truth nutation", "from the exact rate"),),
         located=r"^position is that of the frame, not of the centre of mass$",
     ),
     Wrong(
@@ -165,7 +166,7 @@ WRONG = (
         "joint velocities are those of the last sample", "joints", JointsOfLastSample,
         (
             Sight(
-                CHAIN, SE, {"invariant joint speed residual"},
+                CHAIN, SE, {"invariant joint speed residual"} | ON_JOINTS,
                 "invariant joint speed residual", "change from the exact value at the start",
             ),
         ),
@@ -175,7 +176,7 @@ WRONG = (
         "attitudes are told of bodies that never turn", "quaternion", Turned,
         (
             Sight(
-                CHAIN, SE, {"invariant attitude"},
+                CHAIN, SE, {"invariant attitude"} | ON_JOINTS,
                 "invariant attitude", "change from the exact value at the start",
             ),
         ),
