@@ -129,6 +129,7 @@ def _pair(
                 "The first seen from the second", ("x [m]", "y [m]", "z [m]"), lambda scene, m: _apart(m)[0]
             ),
         ),
+        dt=min(1e-3, *(max(ladder) for ladder in LADDERS[variant].values())),
         ladders=LADDERS[variant],
         errors=every_scheme(ERRORS[variant], *ALIKE) if variant in ERRORS else {},
     )

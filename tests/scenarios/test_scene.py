@@ -168,6 +168,12 @@ def test_steps_that_keep_away_from_singular_times_are_fit():
     assert scene(singular_times=(0.11,)).unfit(0.03) == ""
 
 
+def test_what_is_recorded_of_schemes_holds_at_each_scenes_own_step():
+    for one in scenes().values():
+        coarsest = [max(ladder) for key, ladder in one.ladders.items() if isinstance(key, int)]
+        assert one.whole_step(one.dt) <= min(coarsest, default=one.dt) * (1 + 1e-9), one.full_name
+
+
 def test_every_step_of_a_ladder_is_fit():
     for one in scenes().values():
         steps = {one.dt, *(dt for ladder in one.ladders.values() for dt in ladder)}
