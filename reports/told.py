@@ -1,7 +1,6 @@
 """What is told of a motion must fit together: this needs neither a scheme's order nor its error."""
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
 
 import numpy as np
 
@@ -73,8 +72,19 @@ def _verdict(cell: Cell, name: str, measured: float, place: int) -> Verdict:
 
 def _joined(told: Sequence[Trajectory]) -> Trajectory:
     """All samples as of one motion: what follows from joints is worked out once."""
-    names = [each.name for each in fields(Trajectory) if each.name != "provenance"]
-    return replace(told[0], **{name: np.concatenate([getattr(one, name) for one in told]) for name in names})
+
+    def every(name: str) -> Array:
+        return np.concatenate([getattr(one, name) for one in told])
+
+    return Trajectory(
+        t=every("t"),
+        position=every("position"),
+        quaternion=every("quaternion"),
+        velocity=every("velocity"),
+        omega=every("omega"),
+        joint_position=every("joint_position"),
+        joint_velocity=every("joint_velocity"),
+    )
 
 
 def _sizes(scene: Scene, truth: Trajectory) -> dict[str, float]:
