@@ -4,6 +4,8 @@ import importlib
 import importlib.metadata
 import importlib.util
 import pkgutil
+import sys
+import traceback
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -110,7 +112,13 @@ def _file(path: Path) -> ModuleType:
     if specification is None or specification.loader is None:
         raise InputError(f"engine: got {str(path)!r}, expected a Python file")
     module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
+    folder = str(path.resolve().parent)
+    if folder not in sys.path:
+        sys.path.append(folder)  # as when Python runs a file: it finds its neighbours
+    try:
+        specification.loader.exec_module(module)
+    except Exception as error:
+        raise _fault(str(path), path, error) from error
     return module
 
 
@@ -119,10 +127,20 @@ def _module(name: str) -> ModuleType:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
         if error.name is None or not name.startswith(error.name):
-            raise
+            raise _fault(name, None, error) from error
         raise InputError(
             f"engine: got module {name!r}, which cannot be found; expected one that is installed"
         ) from error
+    except Exception as error:
+        raise _fault(name, None, error) from error
+
+
+def _fault(name: str, path: Path | None, error: Exception) -> InputError:
+    """What a user's own code raised: theirs to mend, told in one line with its place, without our frames."""
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if path and frame.filename == str(path)]
+    where = f", line {lines[-1]}" if lines else ""
+    return InputError(f"engine: {name}{where}: {type(error).__name__}: {error}")
 
 
 def _checked(spec: str, candidate: object, name: str) -> type[Engine]:

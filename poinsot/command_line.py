@@ -60,7 +60,7 @@ def run(
     quick
         The first variant of each scene at its own step alone, once: no ladders of steps, so no orders.
     full
-        Ladders of steps of every variant, every step timed, and the error over run time over three
+        Ladders of steps of every variant; of the first, every step timed, and error over run time over three
         decades of steps. Of scenes that are named every ladder is run anyway; else those of the first
         variant of each scene.
     update_known

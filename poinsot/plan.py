@@ -45,7 +45,7 @@ class Plan:
     records: list[CellRecord] = field(default_factory=list)
     requests: dict[tuple[str, str, str, float], Request] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
-    #: What became of steps that were asked for and do not fit everywhere, a sentence each.
+    #: What to say before a run: of engines that borrow a name, of steps that do not fit everywhere.
     adjusted: list[str] = field(default_factory=list)
     #: Whether nothing is missing, scene, engine, scheme or step: every record must then find its check.
     whole: bool = False
@@ -73,7 +73,14 @@ def plan(
         laid.notes.append("Of every scene the first variant alone was run; of one that is named, all are.")
     loaded = {spec: engine for spec, engine in found.items() if not isinstance(engine, str)}
     _check_schemes(schemes, loaded)
-    laid.adjusted = _adjusted(scenes, steps)
+    borrowed = [
+        f"engine {spec} has the name of Poinsot's own {engine.name!r}: what is on record of that engine is "
+        "granted to this one as well"
+        for spec, engine in loaded.items()
+        if ":" in spec and engine.name in registry.names()
+    ]
+    laid.notes += borrowed
+    laid.adjusted = borrowed + _adjusted(scenes, steps)
     for scene in scenes:
         for spec, engine in found.items():
             if isinstance(engine, str):
@@ -139,10 +146,14 @@ def _own_step(scene: str, steps: Sequence[float]) -> float:
 
 
 def _engines(specs: Sequence[str]) -> dict[str, type[Engine] | str]:
-    """Each engine asked for, or all there are; one that was named must be installed."""
-    if not specs:
-        return registry.engines()
-    return {spec: registry.load(spec) for spec in specs}
+    """Each engine asked for, or all there are; one that was named must be installed, no two share a name."""
+    found: dict[str, type[Engine] | str] = {spec: registry.load(spec) for spec in specs}
+    found = found or registry.engines()
+    named = dict[str, str]()
+    for spec, engine in found.items():
+        if not isinstance(engine, str) and spec != (other := named.setdefault(engine.name, spec)):
+            raise InputError(f"engine: got {other!r} and {spec!r}, both named {engine.name!r}; rename one")
+    return found
 
 
 def _check_schemes(schemes: Sequence[str], engines: dict[str, type[Engine]]) -> None:

@@ -131,8 +131,34 @@ def test_what_is_no_engine_is_refused_with_what_was_meant(own, spec, says):
 def test_a_fault_inside_ones_own_module_is_not_taken_for_a_missing_one(tmp_path, monkeypatch):
     (tmp_path / "faulty.py").write_text("import absent_dependency\n")
     monkeypatch.syspath_prepend(tmp_path)
-    with pytest.raises(ModuleNotFoundError, match="absent_dependency"):
+    says = r"^engine: faulty: ModuleNotFoundError: No module named 'absent_dependency'$"
+    with pytest.raises(InputError, match=says):
         registry.load("faulty:Mine")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("\nraise RuntimeError('no licence')", "line 2: RuntimeError: no licence"),
+        ("import absent_dependency", "line 1: ModuleNotFoundError: No module named 'absent_dependency'"),
+        ("class Mine", "SyntaxError: "),
+    ],
+)
+def test_a_fault_in_ones_own_file_is_told_in_one_line_with_its_place(tmp_path, text, says):
+    path = tmp_path / "faulty.py"
+    path.write_text(text)
+    with pytest.raises(InputError, match=re.escape(says)) as caught:
+        registry.load(f"{path}:Mine")
+    assert str(caught.value).startswith(f"engine: {path}")
+    assert "\n" not in str(caught.value)
+
+
+def test_ones_own_file_finds_its_neighbours(own, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    beside = own.with_name("beside.py")
+    beside.write_text("from mine import Mine")
+    assert registry.load(f"{beside}:Mine").name == "mine"
+    sys.modules.pop("mine")
 
 
 class Two:

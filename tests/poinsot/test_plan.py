@@ -89,6 +89,18 @@ def test_where_no_step_fits_there_is_nothing_to_run(names, dt):
         plan(select(names), ["pinocchio"], [], [dt], Extent.WHOLE)
 
 
+def test_two_engines_of_one_name_cannot_be_told_apart(tmp_path):
+    pytest.importorskip("pinocchio")
+    path = tmp_path / "other.py"
+    path.write_text("from poinsot.adapters.pinocchio_ import Pinocchio\nclass Same(Pinocchio): pass\n")
+    with pytest.raises(InputError, match=r"got 'pinocchio' and '.*other.py:Same', both named 'pinocchio'"):
+        plan(select([LADDER]), ["pinocchio", f"{path}:Same"], [], [1e-3], Extent.WHOLE)
+    laid = plan(select([LADDER]), [f"{path}:Same"], [], [1e-3], Extent.WHOLE)
+    (said,) = (note for note in laid.notes if "other.py" in note)
+    assert "has the name of Poinsot's own 'pinocchio'" in said
+    assert said in laid.adjusted
+
+
 @pytest.mark.parametrize("dt", [0.0, -1e-3, float("nan")])
 def test_a_step_is_a_number_above_0(dt):
     with pytest.raises(InputError, match="dt: got"):
