@@ -69,6 +69,20 @@ def test_a_scheme_of_its_declared_order_passes(ahead, true, declared):
         assert (verdict.allowed, verdict.dt) == (0.25, STEPS[-1])
 
 
+@pytest.mark.parametrize(("true", "status"), [(1, "fail"), (2, "pass"), (3, "fail"), (4, "pass")])
+def test_a_scheme_may_be_of_two_orders(ahead, true, status):
+    runs = [ahead(SCENE, dt, true, c=1e-3 / STEPS[0] ** true) for dt in STEPS]
+    runs = [replaced(run, order=2, twin="RK4 of body velocities") for run in runs]
+    assert {v.status.value for v in orders(checked(runs)).values()} == {status}
+
+
+def test_what_is_of_higher_order_may_lie_in_round_off_on_a_ladder_of_the_lower(ahead):
+    runs = [ahead(SCENE, dt, 4, c=1e-12 / STEPS[0] ** 4) for dt in STEPS]
+    for twin, status in (("RK4 of body velocities", Status.UNSUPPORTED), ("own", Status.FAIL)):
+        found = orders(checked([replaced(run, order=2, twin=twin) for run in runs]))
+        assert found["orientation"].status is status, found["orientation"].message
+
+
 @pytest.mark.parametrize(("true", "declared"), [(1, 2), (2, 1), (4, 3), (1, 4)])
 def test_a_scheme_of_another_order_fails_be_it_lower_or_higher(ahead, true, declared):
     constant = 1e-3 / STEPS[0] ** true
