@@ -6,7 +6,9 @@ The samples are cut into blocks, evenly in time. An error is
   by more than e², and makes the last quarter's mean more than four times the second's (a line: 2.3 times);
 * linear, if from block to block its mean changes by the same amount, five standard errors away from none,
   and comes in all to a tenth of what it swings by within a block;
-* bounded, if it swings within a block, or came to rest over the second half, as widely as over all blocks;
+* bounded, if it swings as widely within a block as over all blocks;
+* come to rest, if over the second half it changes by less than a fifth of what it does over the run: whatever
+  it gnawed at may be gone, so that there is no more to lose;
 * else it wanders as a random walk does, whose range over n blocks is √n times that in one.
 """
 
@@ -17,7 +19,7 @@ import numpy as np
 from ..reference.checked import Array, finite
 from ..reference.errors import InputError
 
-BOUNDED, ROOT, LINEAR, EXPONENTIAL = "bounded", "√t", "linear", "exponential"
+BOUNDED, RESTED, ROOT, LINEAR, EXPONENTIAL = "bounded", "came to rest", "√t", "linear", "exponential"
 BLOCKS = 16
 #: The thresholds of the module's text: in tests/reports/test_drift.py 97 of 100 runs of each law are told.
 BETTER, FOLDS, QUARTERS = 4.0, 2.0, 4.0
@@ -31,7 +33,7 @@ class Drift:
     """The ``law`` of an error, its ``rate`` and the ``largest`` error.
 
     ``rate`` is what the error gains per second if linear, per root of a second if √t, its e-folds per second
-    if exponential, and 0 if bounded.
+    if exponential, and 0 if bounded or come to rest.
     """
 
     law: str
@@ -56,8 +58,11 @@ def drift(t: Array, error: Array) -> Drift:
         return Drift(EXPONENTIAL, folds / span, largest)
     if _linear(blocks):
         return Drift(LINEAR, float(np.polyfit(t - t[0], error, 1)[0]), largest)
-    if _bounded(error, blocks):
+    whole = float(np.ptp(error))
+    if whole <= WIDER * float(np.mean([np.ptp(block) for block in blocks])):
         return Drift(BOUNDED, 0.0, largest)
+    if float(np.ptp(error[len(error) // 2 :])) < SETTLED * whole:
+        return Drift(RESTED, 0.0, largest)
     lag = len(t) // BLOCKS
     walked = float(np.sqrt(np.mean((error[lag:] - error[:-lag]) ** 2)))
     return Drift(ROOT, walked / float(np.sqrt(lag * steps[0])), largest)
@@ -90,9 +95,3 @@ def _linear(blocks: list[Array]) -> bool:
     within = float(np.mean([np.ptp(block) for block in blocks]))
     steady = abs(float(gains.mean())) > STANDARD_ERRORS * scatter
     return bool(steady and abs(means[-1] - means[0]) > SHARE * within)
-
-
-def _bounded(error: Array, blocks: list[Array]) -> bool:
-    whole, within = float(np.ptp(error)), float(np.mean([np.ptp(block) for block in blocks]))
-    second_half = float(np.ptp(error[len(error) // 2 :]))
-    return whole <= WIDER * within or second_half < SETTLED * whole

@@ -70,12 +70,29 @@ def test_pages_are_written_and_held(tmp_path, capsys):
     assert "runs: I3 < 0" in capsys.readouterr().out
 
 
+def test_an_error_that_stops_growing_is_told_from_one_that_is_bounded():
+    pytest.importorskip("mujoco")
+    long_runs = runpy.run_path(str(ROOT / "benchmarks" / "long_runs.py"))
+    # √(1 + (Ω_b dt)²) a step, of Ω_b = 5 rad/s at 1 ms.
+    for scheme, law, across in (("implicit", "came to rest", (1 + 0.005**2) ** -160_000), ("RK4", "", 1.0)):
+        told = long_runs["measured"]("free top", "mujoco", scheme, 320_000)
+        found = np.array(told["found"])
+        assert long_runs["left"](found, told["stride"], 320_000) == pytest.approx(across, rel=0.01)
+        # All that the motion across the axis holds is lost, a fiftieth of what turning holds.
+        if law:
+            said, largest = long_runs["law"](np.arange(len(found)) * 0.2, found[:, 0] / told["energy_scale"])
+            assert said == law
+            assert largest == pytest.approx(0.005 / 0.255, rel=0.01)
+
+
 def test_first_steps_refute_a_law_that_is_not_theirs():
     pytest.importorskip("mujoco")
     refuted = runpy.run_path(str(ROOT / "benchmarks" / "long_runs.py"))["refuted"]
     swing, line = np.abs(np.sin(np.arange(1600.0))), np.arange(1600) / 16.0
     assert not refuted(swing, 100, "bounded", 1.0)
     assert refuted(swing, 100, "bounded", 0.5)
+    assert refuted(swing, 100, "came to rest", 0.5)
+    assert not refuted(swing, 100, "came to rest", 1.0)
     assert refuted(swing, 100, "bounded", 5.0)
     assert not refuted(line, 100, "linear, -1.0 /s", 1e4)
     assert refuted(line, 100, "linear, 0.01 /s", 1e2)

@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from poinsot.reference.errors import InputError
-from poinsot.reports.drift import BOUNDED, EXPONENTIAL, LINEAR, ROOT, Drift, drift
+from poinsot.reports.drift import BOUNDED, EXPONENTIAL, LINEAR, RESTED, ROOT, Drift, drift
 
 N, RUNS = 1600, 100
 T = np.linspace(0.0, 1e4, N)
@@ -49,7 +49,7 @@ def settled(rng):
 
 
 LAWS = {
-    bounded: BOUNDED, settled: BOUNDED, walk: ROOT, noisy_walk: ROOT, linear: LINEAR,
+    bounded: BOUNDED, settled: RESTED, walk: ROOT, noisy_walk: ROOT, linear: LINEAR,
     linear_below_a_swing: LINEAR, line_and_walk: LINEAR, exponential: EXPONENTIAL,
 }  # fmt: skip
 
