@@ -3,6 +3,7 @@
 import gc
 import os
 import statistics
+import sys
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -22,6 +23,8 @@ ROUNDS = 20_000
 CALLS = 100
 #: Steps of the run that is not counted, which fills caches and tells how long the others will take.
 WARM_UP = 50
+#: Steps over which Python's calls are counted: where many need as many more, each is asked for by itself.
+FEW, MANY = 32, 64
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,8 @@ class Timing:
     ``beat`` [s] is what a fixed piece of Python's own work took beside it: where it differs from one
     cell to another, so did the machine. ``pinned`` tells whether the process could be kept on one core.
     ``call`` [s] is what asking for no step at all takes: Python's share of a call, which a batch pays once.
+    ``looped`` tells whether the engine's own loop takes the steps; else each is asked for from Python, whose
+    part of a step's time is not told apart.
     ``scaled`` tells that it was taken at another step of the same scheme.
     """
 
@@ -40,6 +45,7 @@ class Timing:
     beat: float = 0.0
     pinned: bool = True
     call: float | None = None
+    looped: bool | None = None
     scaled: bool = False
 
     @property
@@ -77,6 +83,7 @@ class Timing:
             "us_per_step": self.least / self.steps * 1e6,
             "spread": self.spread,
             "us_per_call": None if self.call is None else self.call * 1e6,
+            "own_loop": self.looped,
             "scaled": self.scaled,
         }
 
@@ -95,6 +102,7 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
         warm_up = min(steps, WARM_UP)
         machine.build(scene, scheme, dt)
         each = _stepping(machine, warm_up) / warm_up
+        looped = _looped(machine, steps - warm_up)
         stepped = min(steps, max(warm_up, round(SPAN / each)))
         whole = steps / stepped
 
@@ -106,12 +114,36 @@ def timed(scene: Scene, engine: type[Engine], scheme: Scheme, dt: float) -> Timi
                     taken = 0
                 seconds.append(_stepping(machine, stepped) * whole)
                 taken += stepped
-            return Timing(steps, stepped, tuple(seconds), beat(), pinned, empty_call(machine))
+            return Timing(steps, stepped, tuple(seconds), beat(), pinned, empty_call(machine), looped)
 
         first = repeated()
         return first if first.spread <= SPREAD else min(first, repeated(), key=lambda timing: timing.spread)
     finally:
         machine.close()
+
+
+def _looped(machine: Engine, left: int) -> bool | None:
+    """Whether the engine's own loop takes the steps; ``None`` where too few steps are ``left`` of a run."""
+    if left < FEW + MANY:
+        return None
+    return _calls(machine, MANY) - _calls(machine, FEW) < (MANY - FEW) / 2
+
+
+def _calls(machine: Engine, steps: int) -> int:
+    """Calls of Python's own functions while that many steps are taken."""
+    counted = 0
+
+    def count(frame: object, event: str, argument: object) -> None:
+        nonlocal counted
+        counted += event in ("call", "c_call")
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        machine.step(steps)
+    finally:
+        sys.setprofile(before)
+    return counted
 
 
 def empty_call(machine: Engine) -> float | None:

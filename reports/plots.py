@@ -68,7 +68,8 @@ def cost_figure(rows: Iterable[Record], columns: Iterable[Column]) -> Figure | N
 _AXES = {"seconds_min": ("run time", "run time, least [s]"), "dt": ("step", "step dt [s]")}
 #: What makes a configuration: the errors of several observables belong to one where these are equal.
 _CONFIGURATION = (
-    "dt", "steps", "seconds_min", "seconds_median", "repeats", "us_per_call", "scaled", "timed_steps"
+    "dt", "steps", "seconds_min", "seconds_median", "repeats", "us_per_call", "own_loop", "scaled",
+    "timed_steps",
 )  # fmt: skip
 
 Lines = dict[Column, list[tuple[Any, ...]]]
@@ -155,6 +156,8 @@ def _time(row: Record) -> str:
     lines += _pace(row["seconds_min"], row["steps"], row["dt"])
     if row.get("us_per_call") is not None:
         lines.append(f"{row['us_per_call']:.2f} µs of Python in a call")
+    if row.get("own_loop") is False:
+        lines.append("steps asked for one by one: part of their time is Python's")
     return "<br>".join(lines)
 
 

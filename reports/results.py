@@ -33,7 +33,7 @@ GRAVITY = (
 #: What a row of ``work_precision`` says of time.
 TIMES = (
     "seconds_min", "seconds_median", "repeats", "timed_steps", "us_per_step", "spread", "us_per_call",
-    "scaled",
+    "own_loop", "scaled",
 )  # fmt: skip
 #: The same where no time was taken.
 UNTIMED: Mapping[str, Any] = dict.fromkeys(TIMES) | {"repeats": 0, "timed_steps": 0, "scaled": False}

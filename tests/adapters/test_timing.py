@@ -49,6 +49,10 @@ def unpinned(monkeypatch):
     Sleeper.asked, Sleeper.collecting = [], []
 
 
+#: Steps asked for before any is timed.
+COUNTED = (timing.WARM_UP, timing.MANY, timing.FEW)
+
+
 def timed(dt):
     return timing.timed(scenes()["free_symmetric_top[oblate]"], Sleeper, SCHEME, dt)
 
@@ -57,7 +61,7 @@ def test_a_short_cell_is_timed_as_a_whole(monkeypatch):
     monkeypatch.setattr(timing, "SPAN", 1.0)  # however busy the machine is
     found = timed(1e-2)
     assert (found.steps, found.timed) == (1000, 1000)
-    assert Sleeper.asked == [timing.WARM_UP] + [1000] * timing.REPEATS
+    assert Sleeper.asked == [*COUNTED] + [1000] * timing.REPEATS
     assert found.least >= 1000 * EACH
 
 
@@ -73,7 +77,7 @@ def test_a_long_cell_is_timed_in_part_and_scaled():
 
 def test_nothing_is_collected_inside_the_clock():
     timed(1e-2)
-    assert Sleeper.collecting == [False] * 11
+    assert Sleeper.collecting[:1] + Sleeper.collecting[len(COUNTED) :] == [False] * 11
     assert gc.isenabled()
 
 
@@ -81,14 +85,14 @@ class Disturbed(Sleeper):
     """Every other repeat of the first ten takes three times as long."""
 
     def step(self, n):
-        slow = len(self.asked) % 2 and len(self.asked) <= timing.REPEATS
+        slow = len(self.asked) % 2 and len(self.asked) < timing.REPEATS + len(COUNTED)
         super().step(3 * n if slow else n)
 
 
 def test_a_cell_that_spreads_is_timed_again_and_the_steadier_kept(monkeypatch):
     monkeypatch.setattr(timing, "SPREAD", 0.2)
     found = timing.timed(scenes()["free_symmetric_top[oblate]"], Disturbed, SCHEME, 1e-2)
-    assert len(Sleeper.asked) == 1 + 2 * timing.REPEATS
+    assert len(Sleeper.asked) == len(COUNTED) + 2 * timing.REPEATS
     assert len(found.seconds) == timing.REPEATS
     assert found.median < 3 * 1000 * EACH
     assert timing.Timing(10, 10, (1.0, 1.5, 1.6)).spread == pytest.approx(0.5)
@@ -116,6 +120,22 @@ def test_what_a_call_takes_by_itself_is_told_apart():
     found = timing.timed(scenes()["free_symmetric_top[oblate]"], SlowToCall, SCHEME, 1e-2)
     assert found.call >= ASKING
     assert found.as_row()["us_per_call"] == found.call * 1e6
+
+
+@pytest.mark.parametrize(
+    ("name", "scene", "looped"),
+    [
+        ("mujoco", "free_symmetric_top[oblate]", True),
+        ("mujoco", "two_body[kepler e=0.1]", False),
+        ("pybullet", "free_symmetric_top[oblate]", True),
+        ("pinocchio", "free_symmetric_top[oblate]", False),
+    ],
+)
+def test_whose_loop_takes_the_steps_is_told(name, scene, looped):
+    pytest.importorskip(name)
+    engine = load(name)
+    found = timing.timed(scenes()[scene], engine, engine.schemes[0], 1e-3)
+    assert found.as_row()["own_loop"] is looped
 
 
 class WantsSteps(Sleeper):
@@ -164,7 +184,7 @@ def test_a_repeat_of_the_whole_starts_anew_and_the_engine_is_closed(monkeypatch)
     monkeypatch.setattr(timing, "SPAN", 1.0)  # however busy the machine is
     timing.timed(scenes()["free_symmetric_top[oblate]"], Counted, SCHEME, 1.001e-2)
     build = ("build", 1e-2)
-    assert Sleeper.asked == [build, timing.WARM_UP] + [build, 1000] * timing.REPEATS + ["close"]
+    assert Sleeper.asked == [build, *COUNTED] + [build, 1000] * timing.REPEATS + ["close"]
 
 
 @pytest.mark.parametrize(
