@@ -85,6 +85,31 @@ class NeverNormalised(Lying, MuJoCo):
         return found._replace(quaternion=found.quaternion * (1 + 1e-9 * self._steps))
 
 
+class NoTurn(MuJoCo):
+    """Leaves the quaternions of what does not turn at zero."""
+
+    def state(self):
+        found = super().state()
+        return found._replace(quaternion=np.zeros_like(found.quaternion))
+
+
+class VelocityOneStepLate(MuJoCo):
+    """Tells the velocities that its bodies had before the last step, and all else as it is."""
+
+    def build(self, scene, scheme, dt):
+        super().build(scene, scheme, dt)
+        self._old = super().state().velocity
+
+    def step(self, n):
+        if n > 1:
+            super().step(n - 1)
+        self._old = super().state().velocity
+        super().step(1)
+
+    def state(self):
+        return super().state()._replace(velocity=self._old)
+
+
 class VelocityOfFrame(MuJoCo):
     """Tells the velocity of the frame's origin: of a body about a fixed point, none."""
 
@@ -186,6 +211,16 @@ WRONG = (
         "velocity is the frame's, not the centre's", "velocity", VelocityOfFrame,
         (alone(TOP, SE, "invariant energy"),),
         located=r"^velocity is that of the frame, not of the centre of mass$",
+    ),
+    Wrong(
+        "quaternions are left at zero", "quaternion", NoTurn,
+        (alone(CHAIN, SE, "invariant quaternion norm"),),
+        located=r"^quaternion is not normalised",
+    ),
+    Wrong(
+        "velocity alone is one step late", "velocity", VelocityOneStepLate,
+        (alone(TOP, SE, *ON_JOINTS), alone(TOP, RK, *ON_JOINTS)),
+        located=r"^velocity told of the bodies does not fit their joints|^velocity is one step late",
     ),
     Wrong(
         "attitudes are mirrored", "quaternion", LeftHanded,
