@@ -1,10 +1,14 @@
 """What changed between two runs: verdicts, errors, orders, versions; times only on one machine."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from statistics import median
 from typing import Any
 
+import numpy as np
+
+from . import order
 from .results import GRAVITY
 from .verdict import Status
 
@@ -22,7 +26,7 @@ class Comparison:
     """Two runs side by side, in sentences.
 
     ``versions`` that differ, ``worse`` and ``better`` verdicts, cells only in one run (``gone``,
-    ``added``), ``errors`` and ``times`` that changed; ``notes`` say what could not be compared.
+    ``added``), ``orders``, ``errors`` and ``times`` that changed; ``notes`` say what could not be compared.
     """
 
     versions: tuple[str, ...]
@@ -30,14 +34,15 @@ class Comparison:
     better: tuple[str, ...]
     gone: tuple[str, ...]
     added: tuple[str, ...]
+    orders: tuple[str, ...]
     errors: tuple[str, ...]
     times: tuple[str, ...]
     notes: tuple[str, ...]
 
     @property
     def same(self) -> bool:
-        """Whether nothing got worse, went missing or has another error."""
-        return not (self.worse or self.gone or self.errors)
+        """Whether nothing got worse, went missing or has another order or error."""
+        return not (self.worse or self.gone or self.orders or self.errors)
 
 
 def compared(old: Results, new: Results) -> Comparison:
@@ -52,6 +57,7 @@ def compared(old: Results, new: Results) -> Comparison:
         better=tuple(text for gravity, text in changes if gravity > 0),
         gone=tuple(_place(key) for key in before if key not in after),
         added=tuple(_place(key) for key in after if key not in before),
+        orders=tuple(_orders(old, new)),
         errors=tuple(_errors(old, new)),
         times=tuple(times),
         notes=tuple(notes),
@@ -62,6 +68,7 @@ def as_text(found: Comparison) -> str:
     """The comparison for a terminal, the gravest first."""
     headings = {
         "worse": "Worse",
+        "orders": "Another order than before",
         "gone": "Missing in the new run",
         "errors": "Another error than before",
         "better": "Better",
@@ -98,7 +105,8 @@ def _changed(key: _Cell, old: Mapping[str, Any], new: Mapping[str, Any]) -> Iter
     for name, verdict in before.items():
         what = f"{_place(key)}: {name[0]} of {name[1]}: {_said(verdict)}"
         if name not in after:
-            yield -1, f"{what} → no longer checked"
+            if Status(verdict["status"]) is not Status.UNSUPPORTED:
+                yield -1, f"{what} → no longer checked"
         elif step := _gravity(after[name]) - _gravity(verdict):
             yield step, f"{what} → {_said(after[name])}"
     for name in after.keys() - before.keys():
@@ -133,6 +141,30 @@ def _errors(old: Results, new: Results) -> Iterator[str]:
             worst[key] = size, f"{_place(_row_key(row)[:4])}: {text}"
     for _, text in worst.values():
         yield text
+
+
+def _orders(old: Results, new: Results) -> Iterator[str]:
+    """One sentence a scheme and observable whose error falls with another power of the step than it did."""
+    before = _fitted(old)
+    for key, fit in _fitted(new).items():
+        was = before.get(key)
+        if was is not None and abs(fit.order - was.order) > order.TOLERANCE:
+            scene, engine, scheme, observable = key
+            yield f"{engine} {scheme} in {scene}: order of {observable} {was.order:.2f} → {fit.order:.2f}"
+
+
+def _fitted(results: Results) -> dict[tuple[str, ...], order.Fit]:
+    """The order of every ladder, of its steps that are clear of round-off, where there are enough of them."""
+    ladders = defaultdict[tuple[str, ...], dict[float, float]](dict)
+    for row in results["work_precision"]:
+        if row.get("judged", True) and (row["error"] or 0.0) > order.ABOVE * (row.get("round_off") or 0.0):
+            key = (row["scene"], row["engine"], row["scheme"], row["observable"])
+            ladders[key][row["dt"]] = row["error"]
+    return {
+        key: order.fit(np.array(list(steps)), np.array(list(steps.values())))
+        for key, steps in ladders.items()
+        if len(steps) >= order.FEWEST
+    }
 
 
 def _row_key(row: Mapping[str, Any]) -> tuple[Any, ...]:

@@ -74,6 +74,48 @@ def test_an_error_that_is_another_is_told_even_where_every_check_passes(runs, fa
     assert not told or f"error of {row['observable']}" in found.errors[0]
 
 
+def of_order(results, power):
+    """The rows of one ladder, whose error now falls with that power of the step."""
+    first = next(
+        row for row in results["work_precision"] if row["error"] and row["observable"] == "orientation"
+    )
+    names = ("scene", "engine", "scheme", "observable")
+    rows = [row for row in results["work_precision"] if all(row[name] == first[name] for name in names)]
+    for row in rows:
+        row["error"], row["round_off"] = row["dt"] ** power, 0.0
+    return rows
+
+
+@pytest.mark.parametrize(("power", "told"), [(4, True), (1, True), (2.2, False)])
+def test_an_order_that_is_another_is_told(runs, power, told):
+    old, new = runs
+    rows = of_order(old, 2)
+    assert len(rows) >= 3
+    of_order(new, power)
+    found = compared(old, new)
+    assert bool(found.orders) is told
+    assert not found.same
+    if told:
+        (said,) = found.orders
+        assert said.endswith(f"order of orientation 2.00 → {power:.2f}")
+        assert rows[0]["scheme"] in said
+
+
+def test_too_few_steps_tell_no_order(runs):
+    old, new = runs
+    of_order(old, 2)
+    for row in of_order(new, 4)[2:]:
+        row["error"] = None
+    assert compared(old, new).orders == ()
+
+
+def test_a_check_that_could_not_be_made_is_no_loss(runs):
+    old, new = runs
+    cell, verdict = a_verdict(old)
+    cell["verdicts"].append(verdict | {"observable": "another", "status": "unsupported"})
+    assert compared(old, new).same
+
+
 def test_round_off_is_no_difference(runs):
     old, new = runs
     row = next(row for row in new["work_precision"] if row["error"])
